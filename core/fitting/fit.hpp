@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+#include "core/geometry/line.hpp"
+#include "core/methods/parameter.hpp"
+#include "core/sensor/points.hpp"
+#include "core/sensor/sensor_model.hpp"
+
+namespace quoin {
+
+/// Which definition of the covariance a fitter reports.
+enum class CovarianceMode {
+  propagated,    ///< sum of independent contributions of all points; what Monte Carlo confirms
+  as_published,  ///< as the method's paper prints it, for comparison with its tables
+};
+
+template <>
+struct EnumNames<CovarianceMode> {
+  static constexpr std::array<std::pair<CovarianceMode, std::string_view>, 2> names{
+      {{CovarianceMode::propagated, "propagated"}, {CovarianceMode::as_published, "as_published"}}};
+};
+
+/// Why a fit has no result.
+enum class FitFailure {
+  none,
+  too_few_points,  ///< fewer than two
+  degenerate,      ///< the points do not determine a line, such as all equal
+  through_sensor,  ///< the line passes through the sensor, where this method is not defined
+  not_finite,      ///< the numbers left the range of double
+};
+
+template <>
+struct EnumNames<FitFailure> {
+  static constexpr std::array<std::pair<FitFailure, std::string_view>, 5> names{
+      {{FitFailure::none, "none"},
+       {FitFailure::too_few_points, "too_few_points"},
+       {FitFailure::degenerate, "degenerate"},
+       {FitFailure::through_sensor, "through_sensor"},
+       {FitFailure::not_finite, "not_finite"}}};
+};
+
+/// Line fitted to the points of one segment, or the reason why there is none.
+struct FitResult {
+  LineEstimate estimate;
+  FitFailure failure = FitFailure::none;
+  int iterations = 1;
+  bool converged = true;
+
+  [[nodiscard]] bool ok() const { return failure == FitFailure::none; }
+  [[nodiscard]] static FitResult failed(FitFailure reason) { return {{}, reason, 0, false}; }
+};
+
+/// Fits one line to all points of the view. Pure: same points, same line.
+using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
+
+/// Sum over the points of the squared radial residual (rho - r / cos(phi)) over its variance; its
+/// expectation is size - 2 for a straight wall and a true sensor model.
+[[nodiscard]] double chi_square(const Line& line, const PointsView& points, const SensorModel& sensor);
+
+}  // namespace quoin

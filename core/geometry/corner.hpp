@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/geometry/line.hpp"
+
+namespace quoin {
+
+/// A point with its 2x2 covariance [m, m^2].
+struct CornerEstimate {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
+/// Intersection of two lines with independent errors (CWLF eq. 36, 37; WCTLS eq. 24, 25) and its
+/// covariance by first-order propagation. Nothing when the lines are parallel to rounding.
+[[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first, const LineEstimate& second);
+
+/// Adds the error that a common range bias makes at `corner`: along the ray to it, not reduced by the
+/// number of points.
+[[nodiscard]] CornerEstimate with_range_bias(const CornerEstimate& corner, double range_bias_stddev);
+
+/// Ellipse of a 2x2 covariance.
+struct Ellipse {
+  double semi_major = 0.0;  ///< [m]
+  double semi_minor = 0.0;  ///< [m]
+  double direction = 0.0;   ///< [rad] of the major axis, (-pi/2, pi/2]
+};
+
+/// Quantile of the chi-square distribution with two degrees of freedom at 95 %, -2 ln(0.05).
+inline constexpr double chi_square_2_95 = 5.991464547107979;
+
+/// Contour at which the squared Mahalanobis distance is `mahalanobis_squared` (1: one sigma).
+[[nodiscard]] Ellipse ellipse(const Eigen::Matrix2d& covariance, double mahalanobis_squared);
+
+/// Area of the one-sigma ellipse, pi sqrt(det C) [m^2].
+[[nodiscard]] double one_sigma_ellipse_area(const Eigen::Matrix2d& covariance);
+
+}  // namespace quoin

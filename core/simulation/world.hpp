@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/pose.hpp"
+
+namespace quoin {
+
+/// A straight wall between two points [m].
+struct Wall {
+  Eigen::Vector2d start;
+  Eigen::Vector2d end;
+};
+
+/// A round obstacle such as a table leg.
+struct Pillar {
+  Eigen::Vector2d center;  ///< [m]
+  double radius = 0.0;     ///< [m]
+};
+
+/// What a simulated sensor sees, and where it drives.
+struct World {
+  std::string name;
+  std::string description;
+  std::vector<Wall> walls;
+  std::vector<Pillar> pillars;
+  /// Way points of the sensor; a resting sensor stays at the first. Never empty in a valid world.
+  std::vector<Pose2> path;
+
+  /// Adds the walls of a polyline; `closed` joins the last point to the first.
+  void add_polyline(const std::vector<Eigen::Vector2d>& points, bool closed);
+
+  /// Points where exactly two walls end that are not parallel: the true corners [m].
+  [[nodiscard]] std::vector<Eigen::Vector2d> corners() const;
+
+  /// Pose after travelling `distance` [m] along the path there and back again; headings are
+  /// interpolated between way points the short way round.
+  [[nodiscard]] Pose2 pose_at(double distance) const;
+};
+
+/// Names of the worlds that are built in, the first being the default.
+[[nodiscard]] std::vector<std::string> world_names();
+
+/// A built-in world, or nothing when there is none of that name. `environment_a` and `environment_b`
+/// follow the sizes, point and segment counts of the WCTLS paper's section 4.
+[[nodiscard]] std::optional<World> built_in_world(std::string_view name);
+
+}  // namespace quoin

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <idl/Common.h>
+
+namespace quoin::runtime {
+
+/// Scans missing between two messages of a topic, and the stage that did not deliver them.
+struct Loss {
+  std::uint64_t first_sequence = 0;
+  std::uint64_t last_sequence = 0;  ///< included
+  std::uint64_t count = 0;          ///< scans of this range that the stage did not deliver
+  std::string stage;                ///< service name; the reader's own input link has the name "link"
+};
+
+/// Tells for each scan whether it arrived, and if not, where it was lost, from nothing but the headers
+/// of the messages that did arrive. Every stage numbers what it publishes (StageTrace.index), so the
+/// difference of two headers says how many results each stage made of the scans in between: the first
+/// stage that made fewer than its predecessor lost the others.
+///
+/// Exact as long as the stages live. When one is restarted, scans between its last result that
+/// arrived and its first new one are put to its account.
+class ScanAccounting {
+ public:
+  /// Takes note of a message; returns the losses since the one before (usually none). Scans before
+  /// the first message are not lost: nobody was listening.
+  std::vector<Loss> receive(const msg::Header& header);
+
+  /// Losses behind the last message, when the source is known to have published `published` scans.
+  std::vector<Loss> finish(std::uint64_t published);
+
+  [[nodiscard]] std::uint64_t received() const { return received_; }
+  [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }
+  [[nodiscard]] std::uint64_t lost() const;
+  /// Lost scans by stage; "link" is the link from the last stage to this reader.
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost_by_stage() const { return lost_by_stage_; }
+  /// Number of the first scan received; nothing before that.
+  [[nodiscard]] std::optional<std::uint64_t> first_sequence() const { return first_sequence_; }
+
+ private:
+  std::optional<msg::Header> previous_;
+  std::optional<std::uint64_t> first_sequence_;
+  std::uint64_t received_ = 0;
+  std::uint64_t duplicates_ = 0;
+  std::map<std::string, std::uint64_t> lost_by_stage_;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace quoin::runtime {
+
+/// How a process takes part in DDS. Loopback only.
+struct ParticipantConfig {
+  int domain = 0;
+  std::string name;  ///< shown by DDS tools
+};
+
+/// A DDS participant that speaks UDP on 127.0.0.1 alone: it opens no other interface, sends no
+/// multicast and leaves no shared-memory file. Throws std::runtime_error when it cannot be created.
+class Participant {
+ public:
+  explicit Participant(const ParticipantConfig& config);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  struct Impl;
+  [[nodiscard]] Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quoin::runtime
