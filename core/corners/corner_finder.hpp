@@ -11,6 +11,7 @@
 
 #include "core/geometry/corner.hpp"
 #include "core/geometry/line.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin {
 
@@ -20,6 +21,9 @@ struct LineSegment {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< [m] projection of the first point
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< [m] projection of the last point
 };
+
+/// The line with the projections of the first and the last of the points it was fitted to.
+[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const PointsView& points);
 
 /// Corner of two lines of a scan.
 struct Corner {
@@ -33,7 +37,7 @@ struct Corner {
 
 /// Finds the corners of lines given in scanning order (the last is a neighbour of the first, across
 /// the seam). The vector is cleared first and keeps its memory.
-using CornerFinder =
-    std::function<void(std::span<const LineSegment>, double range_bias_stddev, std::vector<Corner>&)>;
+using CornerFinder = std::function<void(std::span<const LineSegment>, double range_bias_stddev,
+                                        std::vector<Corner>&)>;
 
 }  // namespace quoin

@@ -61,6 +61,7 @@ using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
 
 /// Sum over the points of the squared radial residual (rho - r / cos(phi)) over its variance; its
 /// expectation is size - 2 for a straight wall and a true sensor model.
-[[nodiscard]] double chi_square(const Line& line, const PointsView& points, const SensorModel& sensor);
+[[nodiscard]] double chi_square(const Line& line, const PointsView& points,
+                                const SensorModel& sensor);
 
 }  // namespace quoin

@@ -18,11 +18,19 @@ struct CornerEstimate {
 
 /// Intersection of two lines with independent errors (CWLF eq. 36, 37; WCTLS eq. 24, 25) and its
 /// covariance by first-order propagation. Nothing when the lines are parallel to rounding.
-[[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first, const LineEstimate& second);
+[[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
+                                                      const LineEstimate& second);
 
-/// Adds the error that a common range bias makes at `corner`: along the ray to it, not reduced by the
-/// number of points.
-[[nodiscard]] CornerEstimate with_range_bias(const CornerEstimate& corner, double range_bias_stddev);
+/// The same for who already has the unit normals (cos alpha, sin alpha) of the lines.
+[[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
+                                                      const Eigen::Vector2d& first_normal,
+                                                      const LineEstimate& second,
+                                                      const Eigen::Vector2d& second_normal);
+
+/// Adds the error that a common range bias makes at `corner`: along the ray to it, not reduced by
+/// the number of points.
+[[nodiscard]] CornerEstimate with_range_bias(const CornerEstimate& corner,
+                                             double range_bias_stddev);
 
 /// Ellipse of a 2x2 covariance.
 struct Ellipse {

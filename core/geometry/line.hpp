@@ -23,7 +23,8 @@ struct LineEstimate {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
-/// The same line with r >= 0 and alpha in (-pi, pi]; the covariance changes sign with r where it must.
+/// The same line with r >= 0 and alpha in (-pi, pi]; the covariance changes sign with r where it
+/// must.
 [[nodiscard]] LineEstimate normalized(const LineEstimate& estimate);
 
 }  // namespace quoin

@@ -31,8 +31,8 @@ struct MethodList {
                        describe_parameters<typename Methods::Parameters>()}...};
   }
 
-  /// The named method with `settings` applied, as a `Function` (a std::function that it can be called
-  /// as). Throws ParameterError when the name or a setting is wrong.
+  /// The named method with `settings` applied, as a `Function` (a std::function that it can be
+  /// called as). Throws ParameterError when the name or a setting is wrong.
   template <class Function>
   [[nodiscard]] static Function make(std::string_view name, const ParameterSettings& settings) {
     Function function;
@@ -44,9 +44,26 @@ struct MethodList {
     return function;
   }
 
+  /// The value in force of one parameter, as text: what `settings` say, or the method's default; ""
+  /// when the method has no such parameter.
+  [[nodiscard]] static std::string setting(std::string_view name, const ParameterSettings& settings,
+                                           std::string_view parameter) {
+    for (const ParameterSetting& setting : settings) {
+      if (setting.name == parameter) return setting.text;
+    }
+    for (const MethodInfo& method : descriptions()) {
+      if (method.name != name) continue;
+      for (const ParameterInfo& info : method.parameters) {
+        if (info.name == parameter) return info.default_value;
+      }
+    }
+    return "";
+  }
+
  private:
   template <class Method, class Function>
-  static bool try_make(std::string_view name, const ParameterSettings& settings, Function& function) {
+  static bool try_make(std::string_view name, const ParameterSettings& settings,
+                       Function& function) {
     if (name != Method::name) return false;
     function = Method(make_parameters<typename Method::Parameters>(settings));
     return true;

@@ -68,7 +68,7 @@ template <class E>
 template <class Owner, class T>
 struct ParameterField {
   using Value = T;
-  T Owner::* member;
+  T Owner::*member;
   const char* name;
   const char* unit;
   double minimum;
@@ -80,14 +80,14 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// A number with its SI unit and its allowed range, both ends included.
 template <class Owner, class T>
-constexpr ParameterField<Owner, T> field(T Owner::* member, const char* name, const char* unit,
+constexpr ParameterField<Owner, T> field(T Owner::*member, const char* name, const char* unit,
                                          double minimum, double maximum, const char* description) {
   return {member, name, unit, minimum, maximum, description};
 }
 
 /// A switch, a choice or a text.
 template <class Owner, class T>
-constexpr ParameterField<Owner, T> field(T Owner::* member, const char* name,
+constexpr ParameterField<Owner, T> field(T Owner::*member, const char* name,
                                          const char* description) {
   return {member, name, "", -no_limit, no_limit, description};
 }
@@ -96,8 +96,8 @@ constexpr ParameterField<Owner, T> field(T Owner::* member, const char* name,
 /// at hand, such as by the deployment reader.
 void check_parameter(const ParameterInfo& info, const std::string& text);
 
-/// Throws ParameterError for the first setting that `infos` does not know (with the nearest name) or
-/// whose value is wrong.
+/// Throws ParameterError for the first setting that `infos` does not know (with the nearest name)
+/// or whose value is wrong.
 void check_parameters(const std::vector<ParameterInfo>& infos, const ParameterSettings& settings);
 
 namespace detail {
@@ -119,7 +119,8 @@ constexpr ParameterType parameter_type() {
   } else if constexpr (std::is_floating_point_v<T>) {
     return ParameterType::real;
   } else {
-    static_assert(std::is_same_v<T, std::string>, "parameters are bool, integers, double, enum or string");
+    static_assert(std::is_same_v<T, std::string>,
+                  "parameters are bool, integers, double, enum or string");
     return ParameterType::text;
   }
 }
@@ -172,7 +173,8 @@ void assign_field(const ParameterField<Owner, T>& f, Owner& owner, const std::st
 }
 }  // namespace detail
 
-/// The parameters of a struct that has `static constexpr auto fields()` returning a tuple of `field`s.
+/// The parameters of a struct that has `static constexpr auto fields()` returning a tuple of
+/// `field`s.
 template <class P>
 [[nodiscard]] std::vector<ParameterInfo> describe_parameters() {
   std::vector<ParameterInfo> infos;
@@ -190,7 +192,8 @@ template <class P>
   for (const ParameterSetting& setting : settings) {
     std::apply(
         [&](const auto&... f) {
-          ((setting.name == f.name ? detail::assign_field(f, parameters, setting.text) : void()), ...);
+          ((setting.name == f.name ? detail::assign_field(f, parameters, setting.text) : void()),
+           ...);
         },
         P::fields());
   }

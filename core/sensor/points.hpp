@@ -8,8 +8,8 @@
 
 namespace quoin {
 
-/// Points of a scan in polar and Cartesian form, structure of arrays, all of the same length. A view:
-/// the arrays belong to somebody else.
+/// Points of a scan in polar and Cartesian form, structure of arrays, all of the same length. A
+/// view: the arrays belong to somebody else.
 struct PointsView {
   std::span<const double> range;    ///< [m] > 0, finite
   std::span<const double> bearing;  ///< [rad] counter-clockwise from x
@@ -23,8 +23,9 @@ struct PointsView {
   /// Points [begin, end).
   [[nodiscard]] PointsView subview(std::size_t begin, std::size_t end) const {
     const std::size_t count = end - begin;
-    return {range.subspan(begin, count),  bearing.subspan(begin, count), cosine.subspan(begin, count),
-            sine.subspan(begin, count), x.subspan(begin, count),       y.subspan(begin, count)};
+    return {range.subspan(begin, count),  bearing.subspan(begin, count),
+            cosine.subspan(begin, count), sine.subspan(begin, count),
+            x.subspan(begin, count),      y.subspan(begin, count)};
   }
 };
 

@@ -21,14 +21,16 @@ struct ScanView {
 };
 
 /// The valid points of `scan`, counter-clockwise, rotated so that they start at a break: behind the
-/// largest jump in range around the farthest point, which no wall can pass through smoothly. Runs of
-/// one wall are therefore contiguous although the scan has a seam. Returns the number of valid points.
+/// largest jump in range around the farthest point, which no wall can pass through smoothly. Runs
+/// of one wall are therefore contiguous although the scan has a seam. Returns the number of valid
+/// points.
 ///
 /// When bearings and ranges differ in length, the points that have both are used.
 std::size_t convert(const ScanView& scan, Points& points);
 
-/// Points that are already valid, ordered and rotated (as `convert` made them on the other side of a
-/// wire), with sine, cosine and Cartesian coordinates computed.
-void convert_ordered(std::span<const float> bearings, std::span<const float> ranges, Points& points);
+/// Points that are already valid, ordered and rotated (as `convert` made them on the other side of
+/// a wire), with sine, cosine and Cartesian coordinates computed.
+void convert_ordered(std::span<const float> bearings, std::span<const float> ranges,
+                     Points& points);
 
 }  // namespace quoin

@@ -24,21 +24,21 @@ struct SimulatedScan {
 };
 
 struct ScannerSettings {
-  std::size_t points = 920;        ///< rays per revolution
+  std::size_t points = 920;                        ///< rays per revolution
   double first_bearing = -3.14159265358979323846;  ///< [rad]
   double field_of_view = 6.283185307179586;        ///< [rad]
-  double period = 0.1;             ///< [s] per revolution
-  double range_min = 0.1;          ///< [m]
-  double range_max = 40.0;         ///< [m]
-  SensorModel noise;               ///< standard deviations of the noise that is applied
-  double range_bias = 0.0;         ///< [m] added to each range
-  double dropout = 0.0;            ///< probability that a ray gives no range
+  double period = 0.1;                             ///< [s] per revolution
+  double range_min = 0.1;                          ///< [m]
+  double range_max = 40.0;                         ///< [m]
+  SensorModel noise;        ///< standard deviations of the noise that is applied
+  double range_bias = 0.0;  ///< [m] added to each range
+  double dropout = 0.0;     ///< probability that a ray gives no range
 };
 
 /// A spinning LiDAR in a world: casts each ray from where the sensor is at that moment, and adds
 /// seeded noise to bearing and range. The start of each revolution falls anywhere between two rays
-/// (the spacing of rays is not a divisor of the revolution on real sensors), so bearings differ from
-/// scan to scan. Same seed, same scans, on every machine.
+/// (the spacing of rays is not a divisor of the revolution on real sensors), so bearings differ
+/// from scan to scan. Same seed, same scans, on every machine.
 class SimulatedScanner {
  public:
   SimulatedScanner(World world, const ScannerSettings& settings, std::uint64_t seed);

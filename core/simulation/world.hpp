@@ -48,8 +48,8 @@ struct World {
 /// Names of the worlds that are built in, the first being the default.
 [[nodiscard]] std::vector<std::string> world_names();
 
-/// A built-in world, or nothing when there is none of that name. `environment_a` and `environment_b`
-/// follow the sizes, point and segment counts of the WCTLS paper's section 4.
+/// A built-in world, or nothing when there is none of that name. `environment_a` and
+/// `environment_b` follow the sizes, point and segment counts of the WCTLS paper's section 4.
 [[nodiscard]] std::optional<World> built_in_world(std::string_view name);
 
 }  // namespace quoin

@@ -28,9 +28,10 @@ enum class RestartPolicy {
 struct ServiceConfig {
   std::string name;
   std::string kind;
-  std::string input;   ///< name of the service whose output is read; "" for sources
-  std::string method;  ///< the kind's default when the file names none; "" for kinds without methods
-  std::string qos;     ///< preset of the output topic: sensor, feature, state or lossless
+  std::string input;  ///< name of the service whose output is read; "" for sources
+  std::string
+      method;       ///< the kind's default when the file names none; "" for kinds without methods
+  std::string qos;  ///< preset of the output topic: sensor, feature, state or lossless
   ParameterSettings parameters;  ///< validated against the method or kind
   RestartPolicy restart = RestartPolicy::always;
   Position position;  ///< of the service in the file
@@ -39,8 +40,8 @@ struct ServiceConfig {
 /// A deployment file, validated: every name exists, every input fits, there is no cycle.
 struct Deployment {
   std::filesystem::path file;
-  std::string name_space;  ///< prefix of all topics
-  int domain = 0;          ///< DDS domain, 0..232
+  std::string name_space;               ///< prefix of all topics
+  int domain = 0;                       ///< DDS domain, 0..232
   std::vector<ServiceConfig> services;  ///< inputs before those who read them
 
   /// Throws std::out_of_range when there is no such service.
@@ -64,7 +65,8 @@ class DeploymentError : public std::runtime_error {
 [[nodiscard]] Deployment load_deployment(const std::filesystem::path& file);
 
 /// The same for text already in memory; `file` is what messages name.
-[[nodiscard]] Deployment parse_deployment(const std::string& text, const std::filesystem::path& file);
+[[nodiscard]] Deployment parse_deployment(const std::string& text,
+                                          const std::filesystem::path& file);
 
 /// Topic names: <namespace>/<service>/<type in lower case>, and two shared by all services.
 [[nodiscard]] std::string output_topic(const Deployment& deployment, const ServiceConfig& service);

@@ -33,6 +33,7 @@ struct KindInfo {
 /// Null when there is no such kind.
 [[nodiscard]] const KindInfo* find_kind(std::string_view name);
 /// Parameters that a service of this kind and method takes.
-[[nodiscard]] const std::vector<ParameterInfo>& parameters_of(const KindInfo& kind, std::string_view method);
+[[nodiscard]] const std::vector<ParameterInfo>& parameters_of(const KindInfo& kind,
+                                                              std::string_view method);
 
 }  // namespace quoin::deploy

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/corners/adjacent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin {
+
+Adjacent::Adjacent(const Parameters& parameters)
+    : parameters_(parameters), sine_of_min_angle_(std::sin(parameters.min_angle)) {}
+
+bool Adjacent::find(std::span<const LineSegment> lines, std::size_t first, std::size_t second,
+                    Corner& corner) {
+  const LineSegment& a = lines[first];
+  const LineSegment& b = lines[second];
+  corner.gap = std::sqrt((b.start - a.end).squaredNorm());
+  if (!(corner.gap <= parameters_.max_gap)) return false;
+  const double cross =
+      normals_[first].x() * normals_[second].y() - normals_[first].y() * normals_[second].x();
+  if (!(std::abs(cross) >= sine_of_min_angle_)) return false;
+  const auto estimate = intersect(a.estimate, normals_[first], b.estimate, normals_[second]);
+  if (!estimate) return false;
+  corner.extrapolation = std::sqrt(std::max((estimate->position - a.end).squaredNorm(),
+                                            (estimate->position - b.start).squaredNorm()));
+  if (!(corner.extrapolation <= parameters_.max_extrapolation)) return false;
+  corner.estimate = *estimate;
+  corner.angle = std::asin(std::min(1.0, std::abs(cross)));
+  corner.first_line = first;
+  corner.second_line = second;
+  return true;
+}
+
+void Adjacent::operator()(std::span<const LineSegment> lines, double range_bias_stddev,
+                          std::vector<Corner>& corners) {
+  corners.clear();
+  const std::size_t count = lines.size();
+  if (count < 2) return;
+  normals_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) normals_[i] = lines[i].estimate.line.normal();
+
+  Corner corner;
+  for (std::size_t first = 0; first < count; ++first) {
+    const std::size_t second = first + 1 < count ? first + 1 : 0;
+    if (!find(lines, first, second, corner)) continue;
+    // Two lines meet once, although each of them is the other's neighbour on both sides.
+    if (count == 2 && !corners.empty()) continue;
+    corners.push_back(corner);
+    if (parameters_.include_range_bias && range_bias_stddev > 0.0) {
+      corners.back().estimate = with_range_bias(corner.estimate, range_bias_stddev);
+    }
+  }
+}
+
+}  // namespace quoin

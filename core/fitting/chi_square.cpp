@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+
+#include "core/fitting/fit.hpp"
+#include "core/sensor/multiversion.hpp"
+
+namespace quoin {
+namespace {
+
+QUOIN_MULTIVERSION
+void add_up(const double* __restrict cosine, const double* __restrict sine,
+            const double* __restrict range, std::size_t count, double normal_x, double normal_y,
+            double r, double range_variance, double bearing_variance, double& out) {
+  // A ray along the line never meets it; 88 degrees is as far as the expansion is of use.
+  constexpr double smallest_cosine = 0.03;
+  constexpr double smallest_variance = std::numeric_limits<double>::min();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    // Residual and variance both multiplied by cos^2 of the incidence angle.
+    const double cos_phi = cosine[i] * normal_x + sine[i] * normal_y;
+    const double sin_phi = sine[i] * normal_x - cosine[i] * normal_y;
+    const double residual = range[i] * cos_phi - r;
+    const double tangential = r * sin_phi / (cos_phi > smallest_cosine ? cos_phi : smallest_cosine);
+    const double variance =
+        range_variance * cos_phi * cos_phi + bearing_variance * tangential * tangential;
+    sum += residual * residual / (variance > smallest_variance ? variance : smallest_variance);
+  }
+  out = sum;
+}
+
+}  // namespace
+
+double chi_square(const Line& line, const PointsView& points, const SensorModel& sensor) {
+  const Eigen::Vector2d normal = line.normal();
+  double sum = 0.0;
+  add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), normal.x(),
+         normal.y(), line.r, sensor.range_stddev * sensor.range_stddev,
+         sensor.bearing_stddev * sensor.bearing_stddev, sum);
+  return sum;
+}
+
+}  // namespace quoin

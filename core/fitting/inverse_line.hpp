@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// Symmetric 2x2 matrix.
+struct Symmetric2 {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+};
+
+/// Solves M q = v, the normal equations of a fit of A x + B y = 1 with q = (A, B), and keeps M^-1.
+/// Nothing when M is singular to rounding: all points lie on one ray or are equal. For UTLS and
+/// WTLS det M is -c of WCTLS eq. (4) and (12).
+struct InverseLine {
+  Eigen::Vector2d q = Eigen::Vector2d::Zero();  ///< (cos alpha, sin alpha) / r [1/m]
+  Symmetric2 inverse;                           ///< M^-1
+};
+[[nodiscard]] std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx,
+                                                            double vy);
+
+/// The line in normal form and the covariance of (alpha, r) from M^-1 S M^-1, the covariance of q.
+[[nodiscard]] FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence);
+
+/// Why the normal equations of these points are singular.
+[[nodiscard]] FitFailure reason_of_singularity(const PointsView& points);
+
+}  // namespace quoin

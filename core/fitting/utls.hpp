@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tuple>
+
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// The unweighted fit of eq. (1) to (7), minimising the sum of (A x + B y - 1)^2. It is known as
+/// total least squares but is algebraic: not orthogonal, and dependent on where the sensor is.
+///
+/// `as_published` reads eq. (5) with a Jacobian of two columns, the sums over all points: one range
+/// error and one bearing error common to the whole segment. That reading gives the paper's tables.
+class Utls {
+ public:
+  static constexpr const char* name = "utls";
+  static constexpr const char* description = "algebraic line fit with equal weights";
+  static constexpr const char* source = "Siadat et al. 1997; Prieto-Fernandez et al. 2026, eq. 1-7";
+
+  struct Parameters {
+    CovarianceMode covariance = CovarianceMode::propagated;
+
+    static constexpr auto fields() {
+      return std::make_tuple(field(&Parameters::covariance, "covariance",
+                                   "propagated: sum over independent points; as_published: as the "
+                                   "paper prints it"));
+    }
+  };
+
+  Utls() = default;
+  explicit Utls(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace quoin

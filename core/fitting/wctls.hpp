@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tuple>
+
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// Weighted conformal total least squares. The line is found by the point Q = (cos alpha, -sin
+/// alpha) / r of the inverted plane (eq. 16), with the weights of eq. (8); sigma_rho and
+/// sigma_theta cancel in the line. The covariance is C_Q mapped by eq. (22) and (23), and on to
+/// (alpha, r).
+///
+/// Both covariance modes are the same here: the paper takes C_Q from WCLM, where it is the sum of
+/// independent contributions of the points already.
+class Wctls {
+ public:
+  static constexpr const char* name = "wctls";
+  static constexpr const char* description =
+      "weighted conformal total least squares: the line by its point Q in the inverted plane";
+  static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
+
+  struct Parameters {
+    CovarianceMode covariance = CovarianceMode::propagated;
+
+    static constexpr auto fields() {
+      return std::make_tuple(field(&Parameters::covariance, "covariance",
+                                   "propagated: sum over independent points; as_published: as the "
+                                   "paper prints it"));
+    }
+  };
+
+  Wctls() = default;
+  explicit Wctls(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace quoin

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tuple>
+
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// Weighted total least squares of eq. (8) to (15): the algebraic fit of A x + B y = 1 with weights
+/// 1 / (sigma_rho rho sigma_theta)^2; the standard deviations cancel in the line. Same line as
+/// WCTLS.
+///
+/// `as_published` reads eq. (13) with a Jacobian of two columns, the sums over all points: one
+/// range error and one bearing error common to the whole segment. That reading gives the paper's
+/// tables.
+class Wtls {
+ public:
+  static constexpr const char* name = "wtls";
+  static constexpr const char* description = "algebraic line fit with weights 1 / range^2";
+  static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 8-15";
+
+  struct Parameters {
+    CovarianceMode covariance = CovarianceMode::propagated;
+
+    static constexpr auto fields() {
+      return std::make_tuple(field(&Parameters::covariance, "covariance",
+                                   "propagated: sum over independent points; as_published: as the "
+                                   "paper prints it"));
+    }
+  };
+
+  Wtls() = default;
+  explicit Wtls(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace quoin

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/geometry/corner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.hpp"
+
+namespace quoin {
+
+std::optional<CornerEstimate> intersect(const LineEstimate& first, const LineEstimate& second) {
+  return intersect(first, first.line.normal(), second, second.line.normal());
+}
+
+std::optional<CornerEstimate> intersect(const LineEstimate& first,
+                                        const Eigen::Vector2d& first_normal,
+                                        const LineEstimate& second,
+                                        const Eigen::Vector2d& second_normal) {
+  constexpr double parallel = 1e-12;  // sine of the angle; below it the position is rounding only
+  const double c1 = first_normal.x();
+  const double s1 = first_normal.y();
+  const double c2 = second_normal.x();
+  const double s2 = second_normal.y();
+  const double determinant = c1 * s2 - s1 * c2;
+  if (!(std::abs(determinant) > parallel)) return std::nullopt;
+
+  // WCTLS eq. (24), (25) with (a, b, c) = (cos alpha, sin alpha, -r).
+  const double x = (first.line.r * s2 - second.line.r * s1) / determinant;
+  const double y = (second.line.r * c1 - first.line.r * c2) / determinant;
+
+  // Only the normal offset of each line at the corner moves the corner: dr - t dalpha.
+  const auto offset_variance = [x, y](const LineEstimate& line, double c, double s) {
+    const double t = y * c - x * s;
+    return line.covariance(1, 1) - 2.0 * t * line.covariance(0, 1) + t * t * line.covariance(0, 0);
+  };
+  const double v1 = offset_variance(first, c1, s1);
+  const double v2 = offset_variance(second, c2, s2);
+  const double scale = 1.0 / (determinant * determinant);
+
+  CornerEstimate corner;
+  corner.position = {x, y};
+  corner.covariance(0, 0) = (s2 * s2 * v1 + s1 * s1 * v2) * scale;
+  corner.covariance(0, 1) = -(s2 * c2 * v1 + s1 * c1 * v2) * scale;
+  corner.covariance(1, 0) = corner.covariance(0, 1);
+  corner.covariance(1, 1) = (c2 * c2 * v1 + c1 * c1 * v2) * scale;
+  if (!corner.position.allFinite() || !corner.covariance.allFinite()) return std::nullopt;
+  return corner;
+}
+
+CornerEstimate with_range_bias(const CornerEstimate& corner, double range_bias_stddev) {
+  CornerEstimate result = corner;
+  const double distance_squared = corner.position.squaredNorm();
+  if (distance_squared > 0.0) {
+    result.covariance += (range_bias_stddev * range_bias_stddev / distance_squared) *
+                         (corner.position * corner.position.transpose());
+  }
+  return result;
+}
+
+Ellipse ellipse(const Eigen::Matrix2d& covariance, double mahalanobis_squared) {
+  const double xx = covariance(0, 0);
+  const double xy = covariance(0, 1);
+  const double yy = covariance(1, 1);
+  const double mean = 0.5 * (xx + yy);
+  const double radius = std::hypot(0.5 * (xx - yy), xy);
+  const double major = mean + radius;
+  // det / major keeps the digits that mean - radius would lose for a slender ellipse.
+  const double minor = major > 0.0 ? (xx * yy - xy * xy) / major : 0.0;
+  Ellipse result;
+  result.semi_major = std::sqrt(std::max(0.0, major * mahalanobis_squared));
+  result.semi_minor = std::sqrt(std::max(0.0, minor * mahalanobis_squared));
+  const double direction = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  result.direction = direction <= -0.5 * pi ? 0.5 * pi : direction;
+  return result;
+}
+
+double one_sigma_ellipse_area(const Eigen::Matrix2d& covariance) {
+  const double determinant =
+      covariance(0, 0) * covariance(1, 1) - covariance(0, 1) * covariance(1, 0);
+  return pi * std::sqrt(std::max(0.0, determinant));
+}
+
+}  // namespace quoin

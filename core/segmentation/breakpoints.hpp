@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/sensor/points.hpp"
+#include "core/sensor/sensor_model.hpp"
+
+namespace quoin {
+
+/// Adaptive breakpoint detector: Borges and Aldon, "Line extraction in 2D range images for mobile
+/// robotics", 2004. Two neighbours belong to different surfaces when they are farther apart than
+///
+///   D_max = r sin(dphi) / sin(lambda - dphi) + 3 range_stddev,
+///
+/// the distance on a wall that is met at the grazing angle lambda, plus noise. Here r is the
+/// smaller of the two ranges, so that the answer does not depend on the sense of rotation. A step
+/// of lambda or more always breaks.
+class BreakpointDetector {
+ public:
+  explicit BreakpointDetector(double lambda);  ///< [rad] in (0, pi / 2)
+
+  /// Fills `starts` with the index of the first point of each cluster, ascending, and the number of
+  /// points at the end; empty without points. Returns whether the last point and the first belong
+  /// to different surfaces.
+  bool find(const PointsView& points, const SensorModel& sensor, std::vector<std::size_t>& starts);
+
+ private:
+  double sine_;
+  double cosine_;
+  std::vector<double> excess_;  // of point i over what point i - 1 allows; > 0 is a break
+};
+
+}  // namespace quoin

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "core/simulation/world.hpp"
+
+namespace quoin {
+namespace {
+
+/// Square with its corners on the axes, so that one corner points at who looks along an axis.
+std::vector<Eigen::Vector2d> diamond(double x, double y, double half_diagonal) {
+  return {{x + half_diagonal, y},
+          {x, y + half_diagonal},
+          {x - half_diagonal, y},
+          {x, y - half_diagonal}};
+}
+
+World domestic_room() {
+  World world;
+  world.name = "domestic_room";
+  world.description = "furnished room of 5 x 4 m: sofa, wardrobe, column, table legs, door niche";
+  world.add_polyline({{0.0, 0.75},
+                      {2.0, 0.75},
+                      {2.0, 0.0},  // sofa
+                      {3.2, 0.0},
+                      {3.2, -0.25},
+                      {4.2, -0.25},
+                      {4.2, 0.0},  // door
+                      {5.0, 0.0},  //
+                      {5.0, 2.2},
+                      {4.65, 2.2},
+                      {4.65, 2.55},
+                      {5.0, 2.55},  // chimney
+                      {5.0, 4.0},   //
+                      {1.6, 4.0},
+                      {1.6, 3.4},
+                      {0.0, 3.4}},  // wardrobe
+                     true);
+  world.add_polyline({{3.0, 3.2}, {3.0, 2.9}, {3.3, 2.9}, {3.3, 3.2}}, true);  // column
+  for (const Eigen::Vector2d& leg : {Eigen::Vector2d{0.7, 1.6}, Eigen::Vector2d{1.3, 1.6},
+                                     Eigen::Vector2d{0.7, 2.4}, Eigen::Vector2d{1.3, 2.4}}) {
+    world.pillars.push_back({leg, 0.025});
+  }
+  world.path = {
+      {2.5, 1.5, 0.3}, {3.4, 1.2, 0.0}, {4.0, 1.7, 1.6}, {2.6, 2.2, 2.8}, {2.1, 1.7, -1.6}};
+  return world;
+}
+
+World environment_a() {
+  World world;
+  world.name = "environment_a";
+  world.description =
+      "room of 4.5 x 2.5 m with columns and a wardrobe: 21 walls and 18 corners in sight";
+  world.add_polyline({{0.35, 0.0},                                          // column
+                      {1.4, 0.0},  {1.4, -0.25}, {2.6, -0.25}, {2.6, 0.0},  // door niche
+                      {4.2, 0.0},  {4.2, 0.3},   {4.5, 0.3},                // column
+                      {4.5, 1.0},  {4.2, 1.0},   {4.2, 1.4},   {4.5, 1.4},  // chimney
+                      {4.5, 2.15}, {4.05, 2.15}, {4.05, 2.5},               // column
+                      {3.1, 2.5},  {3.1, 2.15},  {2.5, 2.15},  {2.5, 2.5},  // wardrobe
+                      {0.3, 2.5},  {0.3, 2.2},   {0.0, 2.2},                // column
+                      {0.0, 0.35}, {0.35, 0.35}},                           // first column
+                     true);
+  world.path = {{2.0, 1.2, 0.0}, {2.6, 1.1, 0.4}, {1.4, 1.3, 2.9}};
+  return world;
+}
+
+World environment_b() {
+  World world;
+  world.name = "environment_b";
+  world.description =
+      "laboratory of 18 x 9 m with cabinets, columns and a panel: 36 walls and 23 corners in sight";
+  world.add_polyline({{1.2, 0.0},                                           // corner cupboard
+                      {3.2, 0.0},  {3.2, 0.8},   {4.6, 0.8},  {4.6, 0.0},   // cabinet
+                      {10.0, 0.0}, {10.0, 0.7},  {11.2, 0.7}, {11.2, 0.0},  // cabinet
+                      {14.0, 0.0}, {14.0, 0.6},  {15.0, 0.6}, {15.0, 0.0},  // cabinet
+                      {18.0, 0.0}, {18.0, 9.0},                             //
+                      {14.0, 9.0}, {14.0, 8.1},  {12.5, 8.1}, {12.5, 9.0},  // cabinet
+                      {10.5, 9.0}, {10.5, 10.0}, {5.5, 10.0}, {5.5, 9.0},   // bay
+                      {3.6, 9.0},  {3.6, 8.1},   {2.6, 8.1},  {2.6, 9.0},   // cabinet
+                      {0.0, 9.0},                                           //
+                      {0.0, 1.0},  {1.2, 1.0}},                             // corner cupboard
+                     true);
+  world.add_polyline(diamond(3.5, 4.3, 0.5), true);
+  world.add_polyline(diamond(13.5, 4.4, 0.55), true);
+  world.add_polyline(diamond(7.4, 1.8, 0.4), true);
+  world.add_polyline({{4.6, 5.1}, {4.6, 5.7}}, false);
+  world.path = {{8.0, 4.0, 0.0}, {11.0, 3.5, -0.3}, {11.5, 6.0, 1.6}, {7.0, 6.5, 3.0}};
+  return world;
+}
+
+World corridor() {
+  World world;
+  world.name = "corridor";
+  world.description = "corridor of 14 x 1.8 m with door niches on both sides";
+  world.add_polyline(
+      {{0.0, 0.0},  {3.0, 0.0}, {3.0, -0.3}, {4.0, -0.3}, {4.0, 0.0},  {8.0, 0.0},  {8.0, -0.3},
+       {9.0, -0.3}, {9.0, 0.0}, {14.0, 0.0}, {14.0, 1.8}, {11.0, 1.8}, {11.0, 2.1}, {10.0, 2.1},
+       {10.0, 1.8}, {6.0, 1.8}, {6.0, 2.1},  {5.0, 2.1},  {5.0, 1.8},  {0.0, 1.8}},
+      true);
+  world.path = {{1.5, 0.8, 0.0}, {7.0, 1.0, 0.0}, {12.5, 0.8, 0.0}};
+  return world;
+}
+
+World square_room() {
+  World world;
+  world.name = "square_room";
+  world.description = "empty room of 4 x 4 m";
+  world.add_polyline({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {0.0, 4.0}}, true);
+  world.path = {{2.0, 2.0, 0.0}, {2.8, 1.4, 0.7}, {1.3, 1.2, 2.5}, {1.5, 2.9, -2.0}};
+  return world;
+}
+
+struct Entry {
+  std::string_view name;
+  World (*make)();
+};
+
+constexpr std::array<Entry, 5> entries{{{"domestic_room", domestic_room},
+                                        {"environment_a", environment_a},
+                                        {"environment_b", environment_b},
+                                        {"corridor", corridor},
+                                        {"square_room", square_room}}};
+
+}  // namespace
+
+std::vector<std::string> world_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+std::optional<World> built_in_world(std::string_view name) {
+  for (const Entry& entry : entries) {
+    if (entry.name == name) return entry.make();
+  }
+  return std::nullopt;
+}
+
+}  // namespace quoin

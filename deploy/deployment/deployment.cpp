@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/deployment/deployment.hpp"
+
+#include <algorithm>
+
+#include "deploy/deployment/kinds.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+std::string joined(const std::vector<std::string>& messages) {
+  std::string text;
+  for (const std::string& message : messages) text += (text.empty() ? "" : "\n") + message;
+  return text;
+}
+}  // namespace
+
+DeploymentError::DeploymentError(std::vector<std::string> messages)
+    : std::runtime_error(joined(messages)), messages_(std::move(messages)) {}
+
+const ServiceConfig& Deployment::service(std::string_view name) const {
+  const auto found =
+      std::find_if(services.begin(), services.end(), [&](const auto& s) { return s.name == name; });
+  if (found == services.end()) {
+    std::vector<std::string> names;
+    for (const ServiceConfig& s : services) names.push_back(s.name);
+    throw std::out_of_range(file.string() + ": no service '" + std::string(name) + "'" +
+                            suggestion(name, names));
+  }
+  return *found;
+}
+
+std::vector<const ServiceConfig*> Deployment::readers_of(std::string_view name) const {
+  std::vector<const ServiceConfig*> readers;
+  for (const ServiceConfig& s : services) {
+    if (s.input == name) readers.push_back(&s);
+  }
+  return readers;
+}
+
+std::string output_topic(const Deployment& deployment, const ServiceConfig& service) {
+  const KindInfo* kind = find_kind(service.kind);
+  if (kind == nullptr) throw std::invalid_argument("unknown kind '" + service.kind + "'");
+  return deployment.name_space + "/" + service.name + "/" + std::string(message_name(kind->output));
+}
+
+std::string status_topic(std::string_view name_space) {
+  return std::string(name_space) + "/status";
+}
+
+std::string control_request_topic(std::string_view name_space) {
+  return std::string(name_space) + "/control/request";
+}
+
+std::string control_reply_topic(std::string_view name_space) {
+  return std::string(name_space) + "/control/reply";
+}
+
+}  // namespace quoin::deploy

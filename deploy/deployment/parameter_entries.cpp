@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/deployment/parameter_entries.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "deploy/deployment/environment.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+void check_setting(const ParameterSetting& setting, const Entry& entry,
+                   const ServiceConfig& service, const std::vector<ParameterInfo>& infos,
+                   Problems& problems) {
+  try {
+    check_parameters(infos, {setting});
+  } catch (const ParameterError& error) {
+    const bool known = std::any_of(infos.begin(), infos.end(), [&](const ParameterInfo& info) {
+      return info.name == setting.name;
+    });
+    if (known) {
+      problems.add(entry.value_at, "parameter '" + setting.name + "' of service '" + service.name +
+                                       "': " + error.what());
+    } else {
+      problems.add(entry.key_at, "service '" + service.name + "': " + error.what() +
+                                     " (quoin methods " + service.kind + " lists them)");
+    }
+  }
+}
+
+}  // namespace
+
+ParameterSettings read_parameters(const Entry& entry, const ServiceConfig& service,
+                                  const std::vector<ParameterInfo>* known, Problems& problems) {
+  ParameterSettings settings;
+  if (entry.value.IsNull()) return settings;
+  if (!entry.value.IsMap()) {
+    problems.add(entry.value_at,
+                 "'parameters' must be a map of names and values, not " + what_is(entry.value));
+    return settings;
+  }
+  const std::string owner = "the parameters of '" + service.name + "'";
+  for (const Entry& parameter : entries_of(entry.value, owner, problems)) {
+    const std::string place = "parameter '" + parameter.key + "' of service '" + service.name + "'";
+    if (!parameter.value.IsScalar()) {
+      problems.add(parameter.value_at,
+                   place + " must be a single value, not " + what_is(parameter.value));
+      continue;
+    }
+    ParameterSetting setting{parameter.key, {}};
+    try {
+      setting.text = replace_variables(parameter.value.Scalar(), environment_variable);
+    } catch (const std::invalid_argument& error) {
+      problems.add(parameter.value_at, place + ": " + error.what());
+      continue;
+    }
+    if (known != nullptr) check_setting(setting, parameter, service, *known, problems);
+    settings.push_back(std::move(setting));
+  }
+  return settings;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/deployment/wiring.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/methods/suggestion.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using Index = std::map<std::string, std::size_t>;
+
+Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
+  Index index;
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    const std::string& name = drafts[i].config.name;
+    if (name.empty()) continue;
+    const auto [first, inserted] = index.emplace(name, i);
+    if (!inserted) {
+      const Position at = drafts[first->second].name_at;
+      problems.add(drafts[i].name_at, "the name '" + name + "' is taken by the service at " +
+                                          std::to_string(at.line) + ":" +
+                                          std::to_string(at.column) + "; names must be unique");
+    }
+  }
+  return index;
+}
+
+/// Kinds to put one after the other between something that gives `from` and something that reads
+/// `to`; nothing when no chain of kinds does it.
+std::optional<std::vector<std::string>> kinds_between(MessageType from, MessageType to) {
+  std::vector<std::string> chain;
+  while (from != to) {
+    const auto next = std::find_if(kinds().begin(), kinds().end(),
+                                   [&](const KindInfo& kind) { return kind.input == from; });
+    if (next == kinds().end() || chain.size() > kinds().size()) return std::nullopt;
+    chain.push_back(next->name);
+    from = next->output;
+  }
+  return chain;
+}
+
+std::string givers_of(MessageType type) {
+  std::string names;
+  for (const KindInfo& kind : kinds()) {
+    if (kind.output == type) names += (names.empty() ? "" : " or ") + kind.name;
+  }
+  return names;
+}
+
+std::string mismatch(const DraftService& source, const DraftService& reader) {
+  const MessageType given = source.kind->output;
+  const MessageType wanted = reader.kind->input;
+  std::string text = "'" + source.config.name + "' gives " + std::string(message_name(given)) +
+                     " but " + reader.kind->name + " reads " + std::string(message_name(wanted));
+  const auto chain = kinds_between(given, wanted);
+  if (!chain) return text + "; name a service of kind " + givers_of(wanted);
+  std::string kinds_text;
+  for (const std::string& kind : *chain) {
+    kinds_text += (kinds_text.empty() ? "a " : " and a ") + kind;
+  }
+  return text + "; put " + kinds_text + " between";
+}
+
+/// Services that are part of a circle of inputs; each circle is reported once.
+std::set<std::size_t> find_cycles(const std::vector<DraftService>& drafts, const Index& index,
+                                  Problems& problems) {
+  std::set<std::size_t> in_cycle;
+  for (std::size_t start = 0; start < drafts.size(); ++start) {
+    if (in_cycle.contains(start)) continue;
+    // Every service has one input at most, so a circle through `start` is found by following
+    // inputs.
+    std::vector<std::size_t> path{start};
+    while (path.size() <= drafts.size()) {
+      const auto next = index.find(drafts[path.back()].config.input);
+      if (next == index.end()) break;
+      if (next->second == start) {
+        in_cycle.insert(path.begin(), path.end());
+        if (path.size() == 1) {
+          problems.add(drafts[start].input_at, "'" + drafts[start].config.name + "' reads itself");
+          break;
+        }
+        std::string text = "cycle: '" + drafts[start].config.name + "'";
+        for (std::size_t i = 1; i < path.size(); ++i) {
+          text += " reads '" + drafts[path[i]].config.name + "'";
+        }
+        text += " reads '" + drafts[start].config.name + "'; start from a source of scans";
+        problems.add(drafts[start].input_at, text);
+        break;
+      }
+      path.push_back(next->second);
+    }
+  }
+  return in_cycle;
+}
+
+void check_input(const DraftService& service, const std::vector<DraftService>& drafts,
+                 const Index& index, Problems& problems) {
+  const std::string& input = service.config.input;
+  if (service.input_at.line == 0) {
+    if (service.kind != nullptr && service.kind->input != MessageType::none) {
+      problems.add(service.config.position, "service '" + service.config.name + "' of kind " +
+                                                service.kind->name + " needs an input that gives " +
+                                                std::string(message_name(service.kind->input)) +
+                                                "; add input: NAME of a service of kind " +
+                                                givers_of(service.kind->input));
+    }
+    return;
+  }
+  if (service.kind != nullptr && service.kind->input == MessageType::none) {
+    problems.add(service.input_at,
+                 "kind " + service.kind->name +
+                     " is a source and reads no other service; remove the input of '" +
+                     service.config.name + "'");
+    return;
+  }
+  const auto found = index.find(input);
+  if (found == index.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : index) names.push_back(name);
+    problems.add(service.input_at, "the input '" + input + "' of service '" + service.config.name +
+                                       "' does not exist" + suggestion(input, names));
+    return;
+  }
+  const DraftService& source = drafts[found->second];
+  if (service.kind != nullptr && source.kind != nullptr &&
+      source.kind->output != service.kind->input) {
+    problems.add(service.input_at, mismatch(source, service));
+  }
+}
+
+}  // namespace
+
+std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts, Problems& problems) {
+  const Index index = index_names(drafts, problems);
+  const std::set<std::size_t> in_cycle = find_cycles(drafts, index, problems);
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    // In a circle some type must mismatch too; saying so would only distract.
+    if (!in_cycle.contains(i)) check_input(drafts[i], drafts, index, problems);
+  }
+  std::vector<ServiceConfig> ordered;
+  if (!problems.empty()) return ordered;
+
+  std::set<std::string> placed;
+  while (ordered.size() < drafts.size()) {
+    const auto next = std::find_if(drafts.begin(), drafts.end(), [&](const DraftService& draft) {
+      return !placed.contains(draft.config.name) &&
+             (draft.config.input.empty() || placed.contains(draft.config.input));
+    });
+    placed.insert(next->config.name);
+    ordered.push_back(next->config);
+  }
+  return ordered;
+}
+
+}  // namespace quoin::deploy

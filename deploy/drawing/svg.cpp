@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/drawing/svg.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace quoin::deploy {
+
+namespace {
+
+/// Text that XML takes as it is; control characters, which it forbids, become blanks.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char character : text) {
+    switch (character) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += character >= 0 && character < ' ' ? ' ' : character;
+    }
+  }
+  return result;
+}
+
+std::string pixels(double value) { return number(value, 2); }
+
+}  // namespace
+
+std::string number(double value, int digits) {
+  std::array<char, 400> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
+  std::string text = buffer.data();
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+Svg::Svg(double width, double height, std::string_view style_sheet) {
+  text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+               {"width", pixels(width)},
+               {"height", pixels(height)},
+               {"viewBox", "0 0 " + pixels(width) + " " + pixels(height)}});
+  text_ += "<style>";
+  text_ += style_sheet;
+  text_ += "</style>\n";
+  element("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#ffffff"}}, "/>\n");
+}
+
+void Svg::element(std::string_view name, const Attributes& attributes, std::string_view end) {
+  text_ += '<';
+  text_ += name;
+  for (const auto& [attribute, value] : attributes) {
+    text_ += ' ';
+    text_ += attribute;
+    text_ += "=\"" + escaped(value) + '"';
+  }
+  text_ += end;
+}
+
+void Svg::open(std::string_view name, const Attributes& attributes) {
+  element(name, attributes, ">\n");
+}
+
+void Svg::close(std::string_view name) {
+  text_ += "</";
+  text_ += name;
+  text_ += ">\n";
+}
+
+void Svg::line(std::string_view style, double x1, double y1, double x2, double y2) {
+  element("line",
+          {{"class", std::string(style)},
+           {"x1", pixels(x1)},
+           {"y1", pixels(y1)},
+           {"x2", pixels(x2)},
+           {"y2", pixels(y2)}},
+          "/>\n");
+}
+
+void Svg::circle(std::string_view style, double x, double y, double radius) {
+  element(
+      "circle",
+      {{"class", std::string(style)}, {"cx", pixels(x)}, {"cy", pixels(y)}, {"r", pixels(radius)}},
+      "/>\n");
+}
+
+void Svg::ellipse(std::string_view style, double x, double y, double rx, double ry,
+                  double rotation) {
+  element("ellipse",
+          {{"class", std::string(style)},
+           {"cx", pixels(x)},
+           {"cy", pixels(y)},
+           {"rx", pixels(rx)},
+           {"ry", pixels(ry)},
+           {"transform", "rotate(" + pixels(rotation) + " " + pixels(x) + " " + pixels(y) + ")"}},
+          "/>\n");
+}
+
+void Svg::text(std::string_view style, double x, double y, std::string_view text) {
+  element("text", {{"class", std::string(style)}, {"x", pixels(x)}, {"y", pixels(y)}}, ">");
+  text_ += escaped(text);
+  close("text");
+}
+
+std::string Svg::finish() {
+  close("svg");
+  return std::move(text_);
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace quoin::deploy {
+
+/// `value` with at most `digits` digits behind the point and no trailing zeros.
+[[nodiscard]] std::string number(double value, int digits);
+
+/// Writes the few SVG elements that a picture is made of. Lengths are pixels, y points down;
+/// `style` names are classes of the style sheet.
+class Svg {
+ public:
+  Svg(double width, double height, std::string_view style_sheet);
+
+  using Attributes = std::vector<std::pair<std::string_view, std::string>>;
+  void open(std::string_view element, const Attributes& attributes);
+  void close(std::string_view element);
+  void line(std::string_view style, double x1, double y1, double x2, double y2);
+  void circle(std::string_view style, double x, double y, double radius);
+  /// `rotation` [degree] turns clockwise on the screen.
+  void ellipse(std::string_view style, double x, double y, double rx, double ry, double rotation);
+  void text(std::string_view style, double x, double y, std::string_view text);
+
+  /// Ends the document and returns it.
+  [[nodiscard]] std::string finish();
+
+ private:
+  void element(std::string_view name, const Attributes& attributes, std::string_view end);
+
+  std::string text_;
+};
+
+}  // namespace quoin::deploy

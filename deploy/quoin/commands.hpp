@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace quoin::deploy {
+
+/// Exit codes of all programs of this project.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_failure = 1,
+  exit_configuration = 2,  ///< wrong usage or configuration
+  exit_input = 3,          ///< the input of a source is unusable
+};
+
+/// A subcommand: its command line, and what to do once that has been parsed. Returns the exit code.
+struct Command {
+  CLI::App* line;
+  std::function<int()> run;
+};
+
+[[nodiscard]] Command add_up(CLI::App& app);
+[[nodiscard]] Command add_check(CLI::App& app);
+[[nodiscard]] Command add_methods(CLI::App& app);
+[[nodiscard]] Command add_status(CLI::App& app);
+[[nodiscard]] Command add_echo(CLI::App& app);
+[[nodiscard]] Command add_draw(CLI::App& app);
+[[nodiscard]] Command add_version(CLI::App& app);
+
+}  // namespace quoin::deploy

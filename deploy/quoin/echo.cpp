@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/deployment/kinds.hpp"
+#include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/message_json.hpp"
+#include "deploy/quoin/message_text.hpp"
+#include "deploy/quoin/signals.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/reader.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+struct EchoOptions {
+  std::string file;
+  std::string service;
+  std::uint64_t count = 0;  // 0: no end
+  bool json = false;
+};
+
+template <class T>
+int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
+  Signals signals;
+  runtime::Participant participant({deployment.domain, deployment.name_space + "/quoin_echo"});
+  // Whoever only looks must not slow the writer down, as a lossless reader would.
+  const std::string qos = service.qos == "lossless" ? "feature" : service.qos;
+  const std::string topic = output_topic(deployment, service);
+  runtime::Reader<T> reader(participant, topic, runtime::qos_preset(qos));
+  runtime::WaitSet wait_set;
+  wait_set.add(reader);
+  if (!reader.wait_for_writers(1, milliseconds(1500))) {
+    std::cerr << "nobody publishes " << topic << " yet; waiting (quoin up starts a deployment)\n";
+  }
+  T message;
+  std::uint64_t printed = 0;
+  while (signals.take() == 0) {
+    wait_set.wait(milliseconds(100));
+    while (reader.take(message)) {
+      if (options.json) {
+        std::cout << to_json(message).dump(-1, ' ', false,
+                                           nlohmann::ordered_json::error_handler_t::replace)
+                  << std::endl;
+      } else {
+        std::cout << to_text(message) << std::endl;
+      }
+      if (!std::cout) return exit_failure;  // nobody reads any more
+      if (++printed == options.count) return exit_ok;
+    }
+  }
+  return options.count == 0 ? exit_ok : exit_failure;
+}
+
+int run(const EchoOptions& options) {
+  const Deployment deployment = load_deployment(options.file);
+  const ServiceConfig& service = deployment.service(options.service);
+  switch (find_kind(service.kind)->output) {
+    case MessageType::scan:
+      return echo<msg::Scan>(deployment, service, options);
+    case MessageType::segments:
+      return echo<msg::Segments>(deployment, service, options);
+    case MessageType::lines:
+      return echo<msg::Lines>(deployment, service, options);
+    case MessageType::corners:
+      return echo<msg::Corners>(deployment, service, options);
+    case MessageType::none:
+      break;
+  }
+  std::cerr << "service '" << service.name << "' publishes nothing\n";
+  return exit_configuration;
+}
+
+}  // namespace
+
+Command add_echo(CLI::App& app) {
+  CLI::App* line =
+      app.add_subcommand("echo", "Print what a service of a running deployment publishes");
+  const auto options = std::make_shared<EchoOptions>();
+  line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option("service", options->service, "Name of the service")->required();
+  line->add_option("--count", options->count, "End after this many messages")
+      ->check(CLI::PositiveNumber);
+  line->add_flag("--json", options->json, "All fields, as one JSON object a line");
+  return {line, [options] { return run(*options); }};
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/quoin/launch.hpp"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+#include "deploy/deployment/kinds.hpp"
+
+namespace quoin::deploy {
+
+std::filesystem::path program_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+std::vector<ProcessPlan> process_plans(const Deployment& deployment,
+                                       const std::function<int(const ServiceConfig&)>& observers) {
+  const std::filesystem::path folder = program_folder();
+  std::map<std::string, int> levels;
+  std::vector<ProcessPlan> plans;
+  for (const ServiceConfig& service : deployment.services) {
+    ProcessPlan plan;
+    plan.name = service.name;
+    plan.program = folder / find_kind(service.kind)->program;
+    if (::access(plan.program.c_str(), X_OK) != 0) {
+      throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
+                               service.name + "' of kind " + service.kind + " needs it");
+    }
+    plan.arguments = {"--deployment", std::filesystem::absolute(deployment.file).string(),
+                      "--service", service.name};
+    if (const int count = observers(service); count > 0) {
+      plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
+    }
+    plan.source = service.input.empty();
+    plan.level = plan.source ? 0 : levels.at(service.input) + 1;
+    plan.restart = service.restart == RestartPolicy::always;
+    levels[service.name] = plan.level;
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/quoin/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "deploy/deployment/kinds.hpp"
+#include "services/runtime/qos.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+std::string state_name(msg::ServiceState state) {
+  switch (state) {
+    case msg::STATE_STARTING:
+      return "starting";
+    case msg::STATE_ACTIVE:
+      return "active";
+    case msg::STATE_FINISHED:
+      return "finished";
+    case msg::STATE_STOPPED:
+      return "stopped";
+    case msg::STATE_FAILED:
+      return "failed";
+  }
+  return "unknown";
+}
+
+std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
+  const ServiceConfig* origin = &service;
+  while (!origin->input.empty()) origin = &deployment.service(origin->input);
+  return origin->name;
+}
+
+}  // namespace
+
+ServiceReport report_of(const msg::ServiceStatus& status) {
+  ServiceReport report;
+  report.state = state_name(status.state());
+  report.detail = status.detail();
+  report.received = status.received();
+  report.published = status.published();
+  report.lost = status.lost();
+  for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
+  report.upstream_lost = status.upstream_lost();
+  report.failures = status.failures();
+  report.rate = status.rate();
+  report.latency_p50 = status.latency_p50();
+  report.latency_p99 = status.latency_p99();
+  report.processing_p50 = status.processing_p50();
+  report.processing_p99 = status.processing_p99();
+  report.resident_memory = status.resident_memory();
+  return report;
+}
+
+Monitor::Monitor(const Deployment& deployment)
+    : deployment_(deployment),
+      participant_({deployment.domain, deployment.name_space + "/quoin"}),
+      status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
+  wait_set_.add(status_reader_);
+  for (const ServiceConfig& service : deployment.services) {
+    services_[service.name].method = service.method;
+    if (find_kind(service.kind)->output != MessageType::corners) continue;
+    CornerWatch watch;
+    watch.name = service.name;
+    watch.source = source_of(deployment, service);
+    watch.reader = std::make_unique<runtime::Reader<msg::Corners>>(
+        participant_, output_topic(deployment, service), runtime::qos_preset(service.qos));
+    wait_set_.add(*watch.reader);
+    corners_.push_back(std::move(watch));
+  }
+  thread_ = std::thread([this] { listen(); });
+}
+
+Monitor::~Monitor() {
+  ending_ = true;
+  wait_set_.wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Monitor::listen() {
+  while (!ending_) {
+    wait_set_.wait(milliseconds(200));
+    take_all();
+  }
+}
+
+bool Monitor::take_all() {
+  const std::lock_guard lock(mutex_);
+  bool any = false;
+  while (status_reader_.take(status_)) {
+    take(status_);
+    any = true;
+  }
+  for (CornerWatch& watch : corners_) {
+    while (watch.reader->take(message_)) {
+      take(watch, message_);
+      any = true;
+    }
+  }
+  return any;
+}
+
+void Monitor::take(const msg::ServiceStatus& status) {
+  const auto found = services_.find(status.service());
+  if (found == services_.end()) return;
+  ServiceWatch& watch = found->second;
+  const ServiceReport report = report_of(status);
+  watch.incarnations.update(status.incarnation(), report);
+  watch.process_ids[status.incarnation()] = static_cast<int>(status.pid());
+  watch.method = status.method();
+  watch.was_active = watch.was_active || status.state() != msg::STATE_STARTING;
+  watch.ended = status.state() != msg::STATE_STARTING && status.state() != msg::STATE_ACTIVE;
+}
+
+void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
+  const bool first = watch.accounting.received() == 0;
+  const std::uint64_t received = watch.accounting.received();
+  watch.accounting.receive(message.header());
+  if (watch.accounting.received() == received) return;  // the same scan again
+  if (first) watch.lost_at_start = message.header().sequence_number();
+  // Heartbeats come once a second; the trace tells at once what a process had published, which is
+  // all there is when it is killed.
+  for (const msg::StageTrace& trace : message.header().trace()) {
+    const auto service = services_.find(trace.service());
+    if (service == services_.end()) continue;
+    service->second.incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
+  }
+  watch.corners += message.corners().size();
+  for (const msg::Corner& corner : message.corners()) {
+    watch.sigma.add(std::sqrt(0.5 * (corner.covariance_xx() + corner.covariance_yy())));
+    // In mm^2: the histogram ends at 1e-9, which good corners come near to in m^2.
+    watch.ellipse_area.add(corner.ellipse_area() * 1e6);
+  }
+}
+
+bool Monitor::was_active(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return services_.at(name).was_active;
+}
+
+bool Monitor::all_were_active() const { return never_active().empty(); }
+
+std::string Monitor::never_active() const {
+  const std::lock_guard lock(mutex_);
+  std::string names;
+  for (const auto& [name, watch] : services_) {
+    if (watch.was_active) continue;
+    names += (names.empty() ? "" : ", ") + name;
+    const std::string detail = watch.incarnations.total().detail;
+    if (!detail.empty()) names += " (" + detail + ")";
+  }
+  return names;
+}
+
+std::map<std::string, std::set<int>> Monitor::processes() const {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, std::set<int>> processes;
+  for (const auto& [name, watch] : services_) {
+    for (const auto& [incarnation, process] : watch.process_ids) processes[name].insert(process);
+  }
+  return processes;
+}
+
+int Monitor::newest_process(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto& processes = services_.at(name).process_ids;
+  return processes.empty() ? 0 : processes.rbegin()->second;
+}
+
+std::uint64_t Monitor::scans_published(const std::string& source) const {
+  return services_.at(source).incarnations.total().published;
+}
+
+DeploymentFigures Monitor::figures() const {
+  const std::lock_guard lock(mutex_);
+  DeploymentFigures figures;
+  figures.deployment = deployment_.file.string();
+  for (const ServiceConfig& service : deployment_.services) {
+    const ServiceWatch& watch = services_.at(service.name);
+    ServiceFigures entry{service.name, service.kind, watch.method, watch.incarnations.total(), 0};
+    if (service.input.empty()) {
+      figures.scans_published += entry.report.published;
+    } else {
+      // What a killed process received after its last heartbeat shows in its results alone.
+      entry.report.received = std::max(entry.report.received, entry.report.published);
+    }
+    figures.services.push_back(std::move(entry));
+  }
+  for (const CornerWatch& watch : corners_) {
+    CornerFigures corner;
+    corner.name = watch.name;
+    corner.scans_delivered = watch.accounting.received();
+    corner.lost_by_stage = watch.accounting.lost_by_stage();
+    if (watch.lost_at_start > 0) corner.lost_by_stage["start"] += watch.lost_at_start;
+    for (const auto& [stage, count] : corner.lost_by_stage) corner.scans_lost += count;
+    corner.scans_expected = corner.scans_delivered + corner.scans_lost;
+    if (corner.scans_delivered > 0) {
+      corner.mean_corners =
+          static_cast<double>(watch.corners) / static_cast<double>(corner.scans_delivered);
+    }
+    corner.median_sigma = watch.sigma.quantile(0.5);
+    corner.median_ellipse_area = watch.ellipse_area.quantile(0.5) * 1e-6;
+    figures.corners.push_back(std::move(corner));
+  }
+  return figures;
+}
+
+void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout) {
+  const auto all_ended = [&] {
+    const std::lock_guard lock(mutex_);
+    for (const std::string& name : names) {
+      if (!services_.at(name).ended) return false;
+    }
+    return true;
+  };
+  const auto deadline = steady_clock::now() + timeout;
+  while (!all_ended() && steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  ending_ = true;
+  wait_set_.wake();
+  thread_.join();
+  take_all();
+  account_for_the_end();
+}
+
+void Monitor::account_for_the_end() {
+  const std::lock_guard lock(mutex_);
+  for (CornerWatch& watch : corners_) {
+    if (watch.accounting.received() > 0) {
+      watch.accounting.finish(services_.at(watch.source).incarnations.published_by_newest());
+    } else {
+      watch.lost_at_start = scans_published(watch.source);
+    }
+  }
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <idl/Corners.h>
+#include <idl/Status.h>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/evaluation/quantile_histogram.hpp"
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/report/figures.hpp"
+#include "services/runtime/accounting.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/reader.hpp"
+
+namespace quoin::deploy {
+
+/// What a heartbeat says, in the terms of a report.
+[[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
+
+/// Listens to the heartbeats of a deployment and to what its corner services publish, in a thread
+/// of its own.
+class Monitor {
+ public:
+  /// Throws std::runtime_error when DDS refuses.
+  explicit Monitor(const Deployment& deployment);
+  ~Monitor();
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  /// Whether the service has ever been active.
+  [[nodiscard]] bool was_active(const std::string& name) const;
+  [[nodiscard]] bool all_were_active() const;
+  /// "x (waiting for 2 readers), y" for those that were never active.
+  [[nodiscard]] std::string never_active() const;
+  /// Processes that report as a service of this deployment, by service.
+  [[nodiscard]] std::map<std::string, std::set<int>> processes() const;
+  [[nodiscard]] int newest_process(const std::string& name) const;
+
+  /// Everything but durations and restarts, which the supervisor knows.
+  [[nodiscard]] DeploymentFigures figures() const;
+
+  /// After all services have ended: waits up to `timeout` for the last heartbeats of `names`, takes
+  /// what has arrived and stops listening; from then on the accounting is final.
+  void finish(const std::vector<std::string>& names, std::chrono::milliseconds timeout);
+
+ private:
+  struct ServiceWatch {
+    Incarnations incarnations;
+    std::map<std::uint64_t, int> process_ids;  // by incarnation
+    std::string method;
+    bool was_active = false;
+    bool ended = false;
+  };
+  struct CornerWatch {
+    std::string name;
+    std::string source;
+    std::unique_ptr<runtime::Reader<msg::Corners>> reader;
+    runtime::ScanAccounting accounting;
+    std::uint64_t lost_at_start = 0;
+    std::uint64_t corners = 0;
+    QuantileHistogram sigma;
+    QuantileHistogram ellipse_area;
+  };
+
+  void listen();
+  bool take_all();
+  void take(const msg::ServiceStatus& status);
+  void take(CornerWatch& watch, const msg::Corners& message);
+  void account_for_the_end();
+  [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
+
+  const Deployment& deployment_;
+  runtime::Participant participant_;
+  runtime::Reader<msg::ServiceStatus> status_reader_;
+  runtime::WaitSet wait_set_;
+  mutable std::mutex mutex_;
+  std::map<std::string, ServiceWatch> services_;
+  std::vector<CornerWatch> corners_;
+  msg::ServiceStatus status_;
+  msg::Corners message_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace quoin::deploy

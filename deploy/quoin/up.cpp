@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/deployment/kinds.hpp"
+#include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/display.hpp"
+#include "deploy/quoin/launch.hpp"
+#include "deploy/quoin/monitor.hpp"
+#include "deploy/quoin/signals.hpp"
+#include "deploy/report/summary.hpp"
+#include "deploy/report/table.hpp"
+#include "deploy/supervision/supervisor.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+struct UpOptions {
+  std::string file;
+  double duration = 0.0;  // [s]; 0: no end
+  bool json = false;
+  bool quiet = false;
+};
+
+Display::Mode display_mode(const UpOptions& options) {
+  if (options.quiet) return Display::Mode::quiet;
+  return options.json ? Display::Mode::errors : Display::Mode::automatic;
+}
+
+/// One run of a deployment, from the first process to the last figures.
+class Run {
+ public:
+  explicit Run(const UpOptions& options)
+      : options_(options),
+        deployment_(load_deployment(options.file)),
+        plans_(process_plans(deployment_,
+                             [](const ServiceConfig& service) {
+                               return find_kind(service.kind)->output == MessageType::corners ? 1
+                                                                                              : 0;
+                             })),
+        monitor_(deployment_),
+        display_(display_mode(options)),
+        supervisor_(
+            plans_,
+            {.output = [this](const std::string& name,
+                              const std::string& line) { display_.log(name, line); },
+             .event = [this](
+                          const std::string& name,
+                          const std::string& text) { display_.log("quoin", name + ": " + text); },
+             .was_active = [this](const std::string& name) { return monitor_.was_active(name); }}) {
+  }
+
+  int run() {
+    begun_ = Clock::now();
+    supervisor_.start();
+    while (!supervisor_.ended()) {
+      if (supervisor_.poll(milliseconds(50), signals_.descriptor()))
+        handle_signals(signals_.take());
+      observe();
+      if (!supervisor_.ended()) display_.show(figures());
+    }
+    monitor_.finish(orderly_ended(), milliseconds(1000));
+    const DeploymentFigures last = figures();
+    display_.finish(last);
+    if (options_.json) {
+      std::cout << summary(last).dump(2, ' ', false,
+                                      nlohmann::ordered_json::error_handler_t::replace)
+                << std::endl;
+    }
+    return exit_code_ != exit_ok ? exit_code_ : supervisor_.exit_code();
+  }
+
+ private:
+  void say(const std::string& text) { display_.log("quoin", text); }
+
+  void handle_signals(int count) {
+    while (count-- > 0) {
+      if (!stop_asked_) {
+        say("stopping, sources first; once more kills");
+        stop_asked_ = true;
+        supervisor_.request_stop();
+      } else {
+        say("killing all");
+        supervisor_.kill_all();
+      }
+    }
+  }
+
+  void observe() {
+    const auto now = Clock::now();
+    if (supervisor_.stopping()) {
+      if (active_since_ && !active_until_) active_until_ = now;
+      return;
+    }
+    if (!active_since_ && monitor_.all_were_active()) {
+      active_since_ = now;
+      say("all services are active after " +
+          fixed(std::chrono::duration<double>(now - begun_).count(), 2) + " s");
+    }
+    if (!active_since_) observe_start(now);
+    if (options_.duration > 0.0 && active_since_ && duration(now) >= options_.duration) {
+      supervisor_.request_stop();
+    }
+    warn_of_strangers();
+  }
+
+  void observe_start(Clock::time_point now) {
+    if (now - begun_ < std::chrono::seconds(30) || start_warned_) return;
+    start_warned_ = true;
+    say("not active after 30 s: " + monitor_.never_active());
+    if (options_.duration > 0.0) {
+      // The time to run would never begin.
+      exit_code_ = exit_failure;
+      supervisor_.request_stop();
+    }
+  }
+
+  /// Another deployment under the same names would mix its messages with ours.
+  void warn_of_strangers() {
+    for (const auto& [name, processes] : monitor_.processes()) {
+      for (const int process : processes) {
+        if (supervisor_.started(process) || !strangers_.insert(process).second) continue;
+        say("process " + std::to_string(process) + " also runs as service '" + name +
+            "' of namespace '" + deployment_.name_space + "' in domain " +
+            std::to_string(deployment_.domain) +
+            "; figures are mixed. Give one of the two another namespace or domain");
+      }
+    }
+  }
+
+  [[nodiscard]] double duration(Clock::time_point now) const {
+    if (!active_since_) return 0.0;
+    return std::chrono::duration<double>(active_until_.value_or(now) - *active_since_).count();
+  }
+
+  [[nodiscard]] DeploymentFigures figures() const {
+    DeploymentFigures figures = monitor_.figures();
+    figures.duration = duration(Clock::now());
+    for (ServiceFigures& service : figures.services) {
+      const ProcessFigures process = supervisor_.figures(service.name);
+      service.restarts = process.restarts;
+      std::string& state = service.report.state;
+      if (process.phase == ProcessPhase::pausing) {
+        state = "restarting";
+      } else if (process.phase == ProcessPhase::dead && state != "failed") {
+        state = "dead";
+      } else if (process.phase == ProcessPhase::running &&
+                 monitor_.newest_process(service.name) != process.process_id) {
+        state = "starting";  // nothing heard of the new process yet
+      }
+      if (process.phase == ProcessPhase::pausing || process.phase == ProcessPhase::dead) {
+        service.report.rate = 0.0;
+      }
+      // The last heartbeat's rate is that of a fraction of a second.
+      if (supervisor_.ended() && figures.duration > 0.0) {
+        service.report.rate = static_cast<double>(service.report.published) / figures.duration;
+      }
+    }
+    return figures;
+  }
+
+  [[nodiscard]] std::vector<std::string> orderly_ended() const {
+    std::vector<std::string> names;
+    for (const ProcessPlan& plan : plans_) {
+      if (supervisor_.figures(plan.name).phase == ProcessPhase::finished)
+        names.push_back(plan.name);
+    }
+    return names;
+  }
+
+  UpOptions options_;
+  Deployment deployment_;
+  std::vector<ProcessPlan> plans_;
+  Signals signals_;  // before the threads of the monitor
+  Monitor monitor_;
+  Display display_;
+  Supervisor supervisor_;  // last: what it calls outlives it
+  Clock::time_point begun_;
+  std::optional<Clock::time_point> active_since_;
+  std::optional<Clock::time_point> active_until_;
+  std::set<int> strangers_;
+  bool stop_asked_ = false;
+  bool start_warned_ = false;
+  int exit_code_ = exit_ok;
+};
+
+}  // namespace
+
+Command add_up(CLI::App& app) {
+  CLI::App* line =
+      app.add_subcommand("up", "Start a deployment and watch over it until it ends or Ctrl-C");
+  const auto options = std::make_shared<UpOptions>();
+  line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option("--duration", options->duration,
+                   "Stop after this time [s], counted from when all are active")
+      ->check(CLI::PositiveNumber);
+  line->add_flag("--json", options->json,
+                 "Print the final figures as a JSON object; progress goes to standard error");
+  line->add_flag("--quiet", options->quiet, "Show log lines only");
+  return {line, [options] { return Run(*options).run(); }};
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "deploy/report/figures.hpp"
+
+namespace quoin::deploy {
+
+/// `value` with `digits` digits behind the point.
+[[nodiscard]] std::string fixed(double value, int digits);
+
+/// The figures as lines of a table of at most `width` characters: the services, then what the
+/// corner services delivered.
+[[nodiscard]] std::vector<std::string> table_lines(const DeploymentFigures& figures,
+                                                   std::size_t width);
+
+/// The same in one line, for logs: what arrives at the ends, or the services while nothing does.
+[[nodiscard]] std::string progress_line(const DeploymentFigures& figures);
+
+}  // namespace quoin::deploy

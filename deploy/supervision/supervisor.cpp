@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/supervision/supervisor.hpp"
+
+#include <algorithm>
+#include <signal.h>
+#include <stdexcept>
+
+namespace quoin::deploy {
+
+namespace {
+using std::chrono::milliseconds;
+constexpr milliseconds patience{5000};  // from SIGTERM to SIGKILL
+constexpr int configuration_error = 2;
+constexpr int input_error = 3;
+
+std::string seconds_text(milliseconds time) {
+  return std::to_string(time.count() / 1000) + "." + std::to_string(time.count() % 1000 / 100) +
+         " s";
+}
+}  // namespace
+
+Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
+    : callbacks_(std::move(callbacks)) {
+  for (ProcessPlan& plan : plans) {
+    Child child;
+    child.plan = std::move(plan);
+    children_.push_back(std::move(child));
+  }
+}
+
+void Supervisor::start() {
+  for (Child& child : children_) launch(child);
+}
+
+void Supervisor::launch(Child& child) {
+  child.process = std::make_unique<Process>(child.plan.program, child.plan.arguments);
+  child.started = Clock::now();
+  child.figures.phase = ProcessPhase::running;
+  child.figures.process_id = static_cast<int>(child.process->pid());
+  started_.insert(child.figures.process_id);
+}
+
+bool Supervisor::poll(milliseconds timeout, int extra_descriptor) {
+  // The list is made anew each time: it is short, and processes come and go.
+  descriptors_.assign(1, pollfd{extra_descriptor, POLLIN, 0});
+  for (const Child& child : children_) {
+    if (!child.process) continue;
+    descriptors_.push_back({child.process->end_descriptor(), POLLIN, 0});
+    descriptors_.push_back({child.process->output_descriptor(), POLLIN, 0});
+  }
+  ::poll(descriptors_.data(), descriptors_.size(),
+         static_cast<int>(time_to_next_action(timeout).count()));
+  const bool extra_ready = (descriptors_.front().revents & POLLIN) != 0;
+  for (Child& child : children_) collect(child);
+  advance();
+  return extra_ready;
+}
+
+void Supervisor::collect(Child& child) {
+  if (!child.process) return;
+  const auto forward = [&](const std::string& line) { callbacks_.output(child.plan.name, line); };
+  const std::optional<ProcessEnd> end = child.process->reap();
+  child.process->read_output(forward);
+  if (!end) return;
+  child.process.reset();
+  judge(child, *end);
+}
+
+void Supervisor::judge(Child& child, const ProcessEnd& end) {
+  const bool was_active = !child.first || callbacks_.was_active(child.plan.name);
+  child.first = false;
+  // A process that was only just started has no handler for SIGTERM yet.
+  const bool orderly =
+      end.exited_with(0) || (child.told_to_stop && end.by_signal && end.value == SIGTERM);
+  child.figures.phase = orderly ? ProcessPhase::finished : ProcessPhase::dead;
+  if (orderly) {
+    if (!child.told_to_stop && !child.plan.source) {
+      callbacks_.event(child.plan.name, "ended by itself; not started again");
+    }
+  } else if (child.plan.source && end.exited_with(input_error)) {
+    callbacks_.event(child.plan.name, "its input became unusable; not started again");
+    fail(input_error);
+  } else if (child.told_to_stop) {
+    callbacks_.event(child.plan.name, "ended with " + describe(end) + " while stopping");
+    fail(1);
+  } else if (end.exited_with(configuration_error) && !was_active) {
+    callbacks_.event(child.plan.name, "cannot work with its configuration; stopping all");
+    fail(configuration_error);
+    request_stop();
+  } else {
+    die(child, end);
+  }
+}
+
+void Supervisor::die(Child& child, const ProcessEnd& end) {
+  const auto lifetime = Clock::now() - child.started;
+  std::string text = "process " + std::to_string(child.figures.process_id) + " died with " +
+                     describe(end) + " after " +
+                     seconds_text(std::chrono::duration_cast<milliseconds>(lifetime));
+  if (stopping_) {
+    // Its level is still to come, but nobody would wait for what a new process could do.
+    callbacks_.event(child.plan.name, text);
+    fail(1);
+  } else if (child.plan.restart) {
+    const milliseconds pause = child.backoff.next(lifetime);
+    child.restart_at = Clock::now() + pause;
+    child.figures.phase = ProcessPhase::pausing;
+    callbacks_.event(child.plan.name, text + "; starting again in " + seconds_text(pause));
+  } else {
+    callbacks_.event(child.plan.name, text + "; stays dead (restart: never)");
+    fail(1);
+  }
+}
+
+void Supervisor::advance() {
+  const auto now = Clock::now();
+  if (stopping_) {
+    stop_next_level(now);
+    return;
+  }
+  bool source_left = false;
+  for (Child& child : children_) {
+    if (child.figures.phase == ProcessPhase::pausing && now >= child.restart_at) {
+      ++child.figures.restarts;
+      try {
+        launch(child);
+      } catch (const std::exception& error) {
+        child.restart_at = now + child.backoff.next({});
+        callbacks_.event(child.plan.name, std::string("cannot be started: ") + error.what());
+      }
+    }
+    source_left =
+        source_left || (child.plan.source && (child.figures.phase == ProcessPhase::running ||
+                                              child.figures.phase == ProcessPhase::pausing));
+  }
+  if (!source_left) request_stop();
+}
+
+void Supervisor::request_stop() {
+  if (stopping_) return;
+  stopping_ = true;
+  for (Child& child : children_) {
+    if (child.figures.phase == ProcessPhase::pausing) child.figures.phase = ProcessPhase::dead;
+  }
+  stop_next_level(Clock::now());
+}
+
+void Supervisor::stop_next_level(Clock::time_point now) {
+  int lowest = -1;
+  for (const Child& child : children_) {
+    if (child.process && (lowest < 0 || child.plan.level < lowest)) lowest = child.plan.level;
+  }
+  if (lowest < 0) return;
+  const bool new_level = lowest != level_;
+  if (new_level) {
+    level_ = lowest;
+    level_deadline_ = now + patience;
+  } else if (now < level_deadline_) {
+    return;
+  } else {
+    level_deadline_ = Clock::time_point::max();
+  }
+  for (Child& child : children_) {
+    if (!child.process || child.plan.level != lowest) continue;
+    if (new_level) {
+      child.told_to_stop = true;
+      child.process->send_signal(SIGTERM);
+    } else {
+      callbacks_.event(child.plan.name,
+                       "did not stop within " + seconds_text(patience) + "; killing it");
+      child.process->send_signal(SIGKILL);
+    }
+  }
+}
+
+void Supervisor::kill_all() {
+  request_stop();
+  for (Child& child : children_) {
+    if (!child.process) continue;
+    child.told_to_stop = true;
+    child.process->send_signal(SIGKILL);
+  }
+}
+
+void Supervisor::fail(int code) {
+  // A wrong configuration explains everything else; otherwise the first cause stands.
+  if (exit_code_ == 0 || code == configuration_error) exit_code_ = code;
+}
+
+bool Supervisor::ended() const {
+  return stopping_ && std::none_of(children_.begin(), children_.end(),
+                                   [](const Child& child) { return child.process != nullptr; });
+}
+
+ProcessFigures Supervisor::figures(const std::string& name) const {
+  for (const Child& child : children_) {
+    if (child.plan.name == name) return child.figures;
+  }
+  throw std::out_of_range("no process of service '" + name + "'");
+}
+
+milliseconds Supervisor::time_to_next_action(milliseconds limit) const {
+  const auto now = Clock::now();
+  auto next = now + limit;
+  for (const Child& child : children_) {
+    if (child.figures.phase == ProcessPhase::pausing) next = std::min(next, child.restart_at);
+  }
+  if (stopping_ && level_ >= 0) next = std::min(next, level_deadline_);
+  // Rounded up: waking a little early would spin.
+  return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(next - now));
+}
+
+}  // namespace quoin::deploy

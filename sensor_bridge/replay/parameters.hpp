@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/methods/parameter.hpp"
+
+namespace quoin::sensor_bridge {
+
+/// How a scan file is written.
+enum class ScanFormat {
+  automatic,  ///< by the file's name: .csv is csv, .log and .log.gz are carmen
+  carmen,     ///< text log with FLASER lines, plain or compressed
+  csv,        ///< one revolution, a line "bearing,range" per ray
+};
+
+}  // namespace quoin::sensor_bridge
+
+namespace quoin {
+
+template <>
+struct EnumNames<sensor_bridge::ScanFormat> {
+  static constexpr std::array<std::pair<sensor_bridge::ScanFormat, std::string_view>, 3> names{
+      {{sensor_bridge::ScanFormat::automatic, "automatic"},
+       {sensor_bridge::ScanFormat::carmen, "carmen"},
+       {sensor_bridge::ScanFormat::csv, "csv"}}};
+};
+
+}  // namespace quoin
+
+namespace quoin::sensor_bridge {
+
+/// What the publisher of recorded scans can be told. Limits and field of view default to the SICK
+/// LMS that most CARMEN logs were taken with: 180 degrees, readings of 80 m and more mean "no
+/// return".
+struct ReplayParameters {
+  std::string path;
+  ScanFormat format = ScanFormat::automatic;
+  double speed = 1.0;  ///< factor
+  bool loop = false;
+  std::int64_t scans = 0;                    ///< 0: all
+  double rate_hz = 10.0;                     ///< [Hz]
+  double field_of_view = 3.141592653589793;  ///< [rad]
+  double range_min = 0.0;                    ///< [m]
+  double range_max = 80.0;                   ///< [m]
+  double range_stddev = 0.010;               ///< [m]
+  double bearing_stddev = 0.00197;           ///< [rad]
+  double range_bias_stddev = 0.0;            ///< [m]
+  std::string frame = "laser";
+
+  static constexpr auto fields() {
+    using P = ReplayParameters;
+    return std::tuple{
+        field(&P::path, "path",
+              "scan file, or folder whose .csv, .log and .log.gz files are read in the order of "
+              "their names (relative to the deployment file); required"),
+        field(&P::format, "format", "how the files are written"),
+        field(&P::speed, "speed", "", 0.0, 1000.0,
+              "factor on the recorded speed; 0 is as fast as the readers accept"),
+        field(&P::loop, "loop", "start again after the last scan"),
+        field(&P::scans, "scans", "", 0.0, 9007199254740992.0,
+              "scans to publish before ending; 0 is all"),
+        field(&P::rate_hz, "rate_hz", "Hz", 0.1, 1000.0,
+              "scans a second where the file holds no usable time stamps"),
+        field(&P::field_of_view, "field_of_view", "rad", 0.001, 6.2832,
+              "swept angle of CARMEN scans, centred on the x axis"),
+        field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shorter ranges are too close"),
+        field(&P::range_max, "range_max", "m", 0.01, 10000.0, "this and longer is no return"),
+        field(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "declared noise of each range"),
+        field(&P::bearing_stddev, "bearing_stddev", "rad", 0.0, 0.1,
+              "declared noise of each bearing"),
+        field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
+              "declared error common to all ranges"),
+        field(&P::frame, "frame", "frame of the sensor (REP-105)")};
+  }
+};
+
+}  // namespace quoin::sensor_bridge

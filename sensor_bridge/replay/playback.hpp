@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "sensor_bridge/replay/recorded_scan.hpp"
+
+namespace quoin::sensor_bridge {
+
+/// When each scan of a recording is due. The time between two scans is the difference of their
+/// stamps as long as that is positive and at most `longest_period`; recordings hold stamps that
+/// stand still, jump back, overflow or leave out a night. There the last good period is used again.
+class Playback {
+ public:
+  static constexpr double longest_period = 10.0;  ///< [s] of recorded time
+
+  /// `speed`: factor on the recorded speed; 0 is without waiting. `rate` [Hz] for scans without
+  /// usable stamps before.
+  Playback(double speed, double rate);
+
+  /// When the next scan, `scan`, is due: a time [s] on the caller's clock, which shows `now`. The
+  /// first is due at once. Times add up without drift; who was held up for more than a period goes
+  /// on from `now` and sends no burst.
+  [[nodiscard]] double due(const RecordedScan& scan, double now);
+
+  /// Scans whose stamp could not be used although there is one.
+  [[nodiscard]] std::size_t bad_stamps() const { return bad_stamps_; }
+
+ private:
+  double speed_;
+  double period_;  // [s] last good one
+  double due_ = 0.0;
+  bool first_ = true;
+  std::optional<double> last_stamp_;
+  std::size_t bad_stamps_ = 0;
+};
+
+}  // namespace quoin::sensor_bridge

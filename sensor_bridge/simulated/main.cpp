@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_bridge/simulated/simulated_source.hpp"
+
+int main(int argc, char** argv) {
+  return quoin::runtime::run_source(argc, argv, "simulated", quoin::sensor_bridge::open_simulated);
+}

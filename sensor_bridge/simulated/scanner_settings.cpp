@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_bridge/simulated/scanner_settings.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace quoin::sensor_bridge {
+
+ScannerSettings scanner_settings(const SimulatedParameters& parameters) {
+  if (parameters.range_min >= parameters.range_max) {
+    throw ParameterError("range_min", "range_min must be below range_max");
+  }
+  ScannerSettings settings;
+  settings.points = static_cast<std::size_t>(parameters.points);
+  // The limit of the parameter is 2 pi rounded up, for those who write 6.2832.
+  settings.field_of_view = std::min(parameters.field_of_view, 2.0 * std::numbers::pi);
+  settings.first_bearing = -0.5 * settings.field_of_view;
+  settings.period = 1.0 / parameters.rate_hz;
+  settings.range_min = parameters.range_min;
+  settings.range_max = parameters.range_max;
+  settings.noise = {parameters.range_stddev, parameters.bearing_stddev,
+                    parameters.range_bias_stddev};
+  settings.range_bias = parameters.range_bias;
+  settings.dropout = parameters.dropout;
+  return settings;
+}
+
+}  // namespace quoin::sensor_bridge

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "core/corners/corner_finders.hpp"
+#include "services/messages/corners.hpp"
+#include "services/messages/lines.hpp"
+#include "services/runtime/stage.hpp"
+
+using namespace quoin;
+
+namespace {
+
+struct Workspace {
+  CornerFinder find;
+  std::vector<LineSegment> lines;
+  std::vector<Corner> corners;
+};
+
+runtime::Process<msg::Lines, msg::Corners> make(const std::string& method, const ParameterSettings& parameters) {
+  auto work = std::make_shared<Workspace>();
+  work->find = CornerFinders::make<CornerFinder>(method, parameters);
+  return [work](const msg::Lines& in, msg::Corners& out) -> std::size_t {
+    messages::line_segments(in, work->lines);
+    work->find(work->lines, in.sensor_model().range_bias_stddev(), work->corners);
+    messages::fill_corners(work->corners, in.covariance_mode(), out);
+    return 0;
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return runtime::run_stage<msg::Lines, msg::Corners>(argc, argv, "corner_estimation", make);
+}

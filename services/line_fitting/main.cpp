@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <stdexcept>
+
+#include "core/fitting/fitters.hpp"
+#include "services/messages/lines.hpp"
+#include "services/messages/segments.hpp"
+#include "services/runtime/stage.hpp"
+
+using namespace quoin;
+
+namespace {
+
+runtime::Process<msg::Segments, msg::Lines> make(const std::string& method, const ParameterSettings& parameters) {
+  const auto fit = Fitters::make<Fitter>(method, parameters);
+  const std::string mode = Fitters::setting(method, parameters, "covariance");
+  auto points = std::make_shared<Points>();
+  return [fit, mode, points](const msg::Segments& in, msg::Lines& out) {
+    if (!messages::valid(in)) throw std::invalid_argument("index ranges outside the points");
+    const SensorModel sensor = messages::sensor_model(in.sensor_model());
+    convert_ordered(in.bearings(), in.ranges(), *points);
+    out.sensor_model(in.sensor_model());
+    out.covariance_mode(mode);
+    out.lines().clear();
+    out.failures().clear();
+    for (std::uint32_t i = 0; i < in.segments().size(); ++i) {
+      const PointsView segment = points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
+      const FitResult result = fit(segment, sensor);
+      if (result.ok()) {
+        messages::append_line(result.estimate, segment, sensor, i, out);
+      } else {
+        messages::append_failure(result.failure, i, out);
+      }
+    }
+    return out.failures().size();
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return runtime::run_stage<msg::Segments, msg::Lines>(argc, argv, "line_fitting", make);
+}

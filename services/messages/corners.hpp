@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <idl/Corners.h>
+
+#include "core/corners/corner_finder.hpp"
+
+namespace quoin::messages {
+
+/// Everything but the header.
+void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode, msg::Corners& out);
+
+}  // namespace quoin::messages

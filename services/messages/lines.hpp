@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <idl/Lines.h>
+
+#include "core/corners/corner_finder.hpp"
+#include "core/fitting/fit.hpp"
+
+namespace quoin::messages {
+
+/// Appends the line fitted to `points`, which are segment number `segment` of the scan, with the
+/// projections of its first and last point.
+void append_line(const LineEstimate& estimate, const PointsView& points, const SensorModel& sensor,
+                 std::uint32_t segment, msg::Lines& out);
+
+void append_failure(FitFailure failure, std::uint32_t segment, msg::Lines& out);
+
+/// The lines of a message; the vector is cleared first.
+void line_segments(const msg::Lines& message, std::vector<LineSegment>& out);
+
+}  // namespace quoin::messages

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <idl/Scan.h>
+#include <idl/Segments.h>
+
+#include "core/segmentation/segment.hpp"
+#include "core/sensor/scan.hpp"
+#include "core/sensor/sensor_model.hpp"
+
+namespace quoin::messages {
+
+[[nodiscard]] SensorModel sensor_model(const msg::SensorModel& message);
+[[nodiscard]] msg::SensorModel sensor_model_message(const SensorModel& model);
+
+/// A view on the message's arrays.
+[[nodiscard]] ScanView scan_view(const msg::Scan& scan);
+
+/// Everything but the header.
+void fill_segments(const msg::Scan& scan, const Points& points, const std::vector<Segment>& segments,
+                   msg::Segments& out);
+
+/// True when every range of the message lies inside its points; a stranger may have sent it.
+[[nodiscard]] bool valid(const msg::Segments& message);
+
+}  // namespace quoin::messages

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/accounting.hpp"
+
+#include <algorithm>
+
+namespace quoin::runtime {
+
+namespace {
+
+// Results that the stage at `position` made between two messages that arrived.
+struct Made {
+  std::uint64_t count = 0;
+  bool restarted = false;  // count is a lower bound: the end of the old process is not known
+};
+
+Made made_between(const msg::Header& before, const msg::Header& after, std::size_t position) {
+  const msg::StageTrace& now = after.trace()[position];
+  if (position < before.trace().size()) {
+    const msg::StageTrace& then = before.trace()[position];
+    if (then.service() == now.service() && then.incarnation() == now.incarnation()) {
+      return {now.index() > then.index() ? now.index() - then.index() - 1 : 0, false};
+    }
+  }
+  return {now.index(), true};
+}
+
+}  // namespace
+
+std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
+  std::vector<Loss> losses;
+  if (header.trace().empty()) return losses;  // not from a stage of this project
+  if (previous_) {
+    const msg::Header& before = *previous_;
+    const bool same_source =
+        !before.trace().empty() && before.trace()[0].incarnation() == header.trace()[0].incarnation();
+    if (same_source && header.sequence_number() <= before.sequence_number()) {
+      ++duplicates_;
+      return losses;
+    }
+    std::vector<Made> made;
+    for (std::size_t i = 0; i < header.trace().size(); ++i) made.push_back(made_between(before, header, i));
+    // What a later stage made, the earlier ones must have made too.
+    for (std::size_t i = made.size() - 1; i-- > 0;) {
+      if (made[i].restarted) made[i].count = std::max(made[i].count, made[i + 1].count);
+    }
+    const std::uint64_t first = same_source ? before.sequence_number() + 1 : 0;
+    const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
+      if (made_of_it >= had) return;
+      losses.push_back({first, header.sequence_number() - 1, had - made_of_it, stage});
+    };
+    // Scans that were taken but never written are the source's own loss.
+    add(header.sequence_number() - first, made[0].count, header.trace()[0].service());
+    for (std::size_t i = 1; i < made.size(); ++i) {
+      add(made[i - 1].count, made[i].count, header.trace()[i].service());
+    }
+    add(made.back().count, 0, "link");
+  } else {
+    first_sequence_ = header.sequence_number();
+  }
+  for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
+  ++received_;
+  previous_ = header;
+  return losses;
+}
+
+std::vector<Loss> ScanAccounting::finish(std::uint64_t published) {
+  if (!previous_ || previous_->sequence_number() + 1 >= published) return {};
+  const std::uint64_t first = previous_->sequence_number() + 1;
+  const Loss loss{first, published - 1, published - first, "end"};
+  lost_by_stage_[loss.stage] += loss.count;
+  return {loss};
+}
+
+std::uint64_t ScanAccounting::lost() const {
+  std::uint64_t sum = 0;
+  for (const auto& [stage, count] : lost_by_stage_) sum += count;
+  return sum;
+}
+
+}  // namespace quoin::runtime

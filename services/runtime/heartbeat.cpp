@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/heartbeat.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+#include "services/runtime/clock.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+constexpr std::chrono::seconds period{1};
+constexpr std::array<const char*, 3> cause_names{"link", "processing", "publishing"};
+
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t total = 0;
+  std::uint64_t resident = 0;
+  file >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
+
+}  // namespace
+
+Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deployment,
+                     const deploy::ServiceConfig& config)
+    : incarnation_(static_cast<std::uint64_t>(now_ns())),
+      rate_since_(now_ns()),
+      writer_(participant, deploy::status_topic(deployment.name_space), QosPreset::state) {
+  status_.service(config.name);
+  status_.kind(config.kind);
+  status_.method(config.method);
+  status_.host(host_name());
+  status_.pid(static_cast<std::uint32_t>(getpid()));
+  status_.incarnation(incarnation_);
+  status_.state(msg::ServiceState::STATE_STARTING);
+  thread_ = std::thread([this] { run(); });
+}
+
+Heartbeat::~Heartbeat() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    changed_.notify_all();
+  }
+  thread_.join();
+}
+
+void Heartbeat::set_state(msg::ServiceState state, const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  status_.state(state);
+  status_.detail(detail);
+  changed_state_ = true;
+  changed_.notify_all();
+}
+
+void Heartbeat::set_detail(const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  status_.detail(detail);
+}
+
+void Heartbeat::set_method(const std::string& method) {
+  const std::lock_guard lock(mutex_);
+  status_.method(method);
+}
+
+void Heartbeat::set_endpoint_report(std::function<void(msg::ServiceStatus&)> report) {
+  const std::lock_guard lock(mutex_);
+  endpoint_report_ = std::move(report);
+}
+
+void Heartbeat::count_received(std::uint64_t upstream_lost, std::uint64_t link_lost) {
+  const std::lock_guard lock(mutex_);
+  ++status_.received();
+  status_.upstream_lost() += upstream_lost;
+  losses_[static_cast<std::size_t>(LossCause::link)] += link_lost;
+}
+
+void Heartbeat::count_loss(LossCause cause) {
+  const std::lock_guard lock(mutex_);
+  ++losses_[static_cast<std::size_t>(cause)];
+}
+
+void Heartbeat::count_published(std::int64_t scan_published, std::int64_t received,
+                                std::int64_t published, std::size_t failures) {
+  const std::lock_guard lock(mutex_);
+  ++status_.published();
+  status_.failures() += failures;
+  latency_.add(seconds(scan_published, published));
+  processing_.add(seconds(received, published));
+}
+
+msg::ServiceStatus Heartbeat::snapshot() {
+  msg::ServiceStatus status;
+  std::function<void(msg::ServiceStatus&)> report;
+  {
+    const std::lock_guard lock(mutex_);
+    changed_state_ = false;
+    const std::int64_t now = now_ns();
+    const double elapsed = seconds(rate_since_, now);
+    if (elapsed >= 0.5) {  // heartbeats at changes of state come too close for a rate
+      status_.rate(static_cast<double>(status_.published() - rate_published_) / elapsed);
+      rate_published_ = status_.published();
+      rate_since_ = now;
+    }
+    status_.stamp(now);
+    std::uint64_t lost = 0;
+    status_.losses().clear();
+    for (std::size_t i = 0; i < cause_names.size(); ++i) {
+      if (losses_[i] == 0) continue;
+      lost += losses_[i];
+      msg::LossCount count;
+      count.cause(cause_names[i]);
+      count.count(losses_[i]);
+      status_.losses().push_back(count);
+    }
+    status_.lost(lost);
+    status_.latency_p50(latency_.quantile(0.5));
+    status_.latency_p99(latency_.quantile(0.99));
+    status_.processing_p50(processing_.quantile(0.5));
+    status_.processing_p99(processing_.quantile(0.99));
+    status_.resident_memory(resident_bytes());
+    status = status_;
+    report = endpoint_report_;
+  }
+  if (report) report(status);
+  return status;
+}
+
+void Heartbeat::run() {
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      if (ending_) return;
+    }
+    {
+      const std::lock_guard lock(write_mutex_);
+      writer_.write(snapshot());
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });
+  }
+}
+
+void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state(state);
+    status_.detail(detail);
+    ending_ = true;
+    changed_.notify_all();
+  }
+  const std::lock_guard lock(write_mutex_);
+  writer_.write(snapshot());
+  writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
+}
+
+}  // namespace quoin::runtime

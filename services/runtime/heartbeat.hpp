@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <idl/Status.h>
+
+#include "core/evaluation/quantile_histogram.hpp"
+#include "deploy/deployment/deployment.hpp"
+#include "services/runtime/writer.hpp"
+
+namespace quoin::runtime {
+
+/// Where a scan was lost inside the reach of one service.
+enum class LossCause {
+  link,        ///< on the way from the service before
+  processing,  ///< the method threw
+  publishing,  ///< DDS did not take the result
+};
+
+/// Counts what a service does and tells it to everybody, once a second and at each change of state,
+/// from a thread of its own so that the data path never waits for it.
+class Heartbeat {
+ public:
+  Heartbeat(Participant& participant, const deploy::Deployment& deployment,
+            const deploy::ServiceConfig& config);
+  ~Heartbeat();
+  Heartbeat(const Heartbeat&) = delete;
+  Heartbeat& operator=(const Heartbeat&) = delete;
+
+  /// Start of this process [ns since the Unix epoch].
+  [[nodiscard]] std::uint64_t incarnation() const { return incarnation_; }
+
+  void set_state(msg::ServiceState state, const std::string& detail = "");
+  void set_detail(const std::string& detail);
+  void set_method(const std::string& method);
+  /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_ fields.
+  void set_endpoint_report(std::function<void(msg::ServiceStatus&)> report);
+
+  void count_received(std::uint64_t upstream_lost, std::uint64_t link_lost);
+  void count_loss(LossCause cause);
+  /// A result was published: stage times [ns since the Unix epoch] and parts without a result.
+  void count_published(std::int64_t scan_published, std::int64_t received, std::int64_t published,
+                       std::size_t failures);
+
+  /// The last heartbeat, acknowledged by those who listen or given up after half a second.
+  void finish(msg::ServiceState state, const std::string& detail = "");
+
+ private:
+  void run();
+  [[nodiscard]] msg::ServiceStatus snapshot();
+
+  const std::uint64_t incarnation_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool changed_state_ = false;
+  bool ending_ = false;
+  msg::ServiceStatus status_;
+  std::uint64_t losses_[3] = {0, 0, 0};
+  QuantileHistogram latency_;
+  QuantileHistogram processing_;
+  std::uint64_t rate_published_ = 0;
+  std::int64_t rate_since_ = 0;
+  std::function<void(msg::ServiceStatus&)> endpoint_report_;
+  std::mutex write_mutex_;  // heartbeats leave in the order of their snapshots
+  Writer<msg::ServiceStatus> writer_;
+  std::thread thread_;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/qos.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "services/runtime/qos_impl.hpp"
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+QosPreset qos_preset(std::string_view name) {
+  if (name == "sensor") return QosPreset::sensor;
+  if (name == "feature") return QosPreset::feature;
+  if (name == "state") return QosPreset::state;
+  if (name == "control") return QosPreset::control;
+  if (name == "lossless") return QosPreset::lossless;
+  throw std::invalid_argument("unknown QoS preset '" + std::string(name) + "'");
+}
+
+namespace {
+
+// Services of one deployment that share the status topic.
+constexpr int max_instances = 512;
+// Samples a lossless endpoint holds before the writer has to wait.
+constexpr int lossless_samples = 64;
+
+int depth(QosPreset preset) {
+  switch (preset) {
+    case QosPreset::sensor:
+      return 5;
+    case QosPreset::feature:
+      return 32;
+    case QosPreset::state:
+      return 1;
+    case QosPreset::control:
+      return 256;
+    case QosPreset::lossless:
+      break;
+  }
+  return lossless_samples;
+}
+
+// The policies that writer and reader share.
+template <class Qos>
+Qos common_qos(Qos qos, QosPreset preset) {
+  const bool keyed = preset == QosPreset::state;
+  const int samples = depth(preset);
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = Duration_t(1, 0);
+  qos.durability().kind = keyed ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind =
+      preset == QosPreset::lossless ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = samples;
+  // Fast DDS refuses what goes beyond its own small defaults, so all limits are set.
+  qos.resource_limits().max_instances = keyed ? max_instances : 1;
+  qos.resource_limits().max_samples_per_instance = samples;
+  qos.resource_limits().max_samples = keyed ? max_instances * samples : samples;
+  qos.resource_limits().allocated_samples = 1;
+  qos.endpoint().history_memory_policy =
+      eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  return qos;
+}
+
+}  // namespace
+
+dds::DataWriterQos writer_qos(QosPreset preset) {
+  dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), preset);
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
+  auto& times = qos.reliable_writer_qos().times;
+  times.heartbeatPeriod = Duration_t(0, 50'000'000);
+  times.nackResponseDelay = Duration_t(0, 1'000'000);
+  times.nackSupressionDuration = Duration_t(0, 0);
+  return qos;
+}
+
+dds::DataReaderQos reader_qos(QosPreset preset) {
+  dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), preset);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, 1'000'000);
+  return qos;
+}
+
+}  // namespace quoin::runtime

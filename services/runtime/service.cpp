@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/service.hpp"
+
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "core/methods/parameter.hpp"
+#include "core/methods/suggestion.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment, const std::string& name,
+                                          const std::string& kind) {
+  std::vector<std::string> candidates;
+  for (const deploy::ServiceConfig& service : deployment.services) {
+    if (service.name == name && service.kind == kind) return service;
+    if (service.kind == kind) candidates.push_back(service.name);
+  }
+  throw deploy::DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " + kind +
+                                 suggestion(name, candidates)});
+}
+
+}  // namespace
+
+Service::Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
+                 const deploy::ServiceConfig& service_config, std::size_t readers)
+    : stop(stop_signal),
+      deployment(deployment_file),
+      config(service_config),
+      participant({deployment.domain, deployment.name_space + "/" + config.name}),
+      heartbeat(participant, deployment, config),
+      expected_readers(readers) {}
+
+bool Service::wait_for_readers(const WriterBase& writer) {
+  using std::chrono::milliseconds;
+  using std::chrono::steady_clock;
+  if (expected_readers == 0) return !stop.requested();
+  heartbeat.set_state(msg::ServiceState::STATE_STARTING,
+                      "waiting for " + std::to_string(expected_readers) + " readers");
+  const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+  while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
+    if (stop.requested()) return false;
+    if (steady_clock::now() > deadline) {
+      spdlog::warn("only {} of {} readers are there after 10 s; going on without the others", writer.matched(),
+                   expected_readers);
+      break;
+    }
+  }
+  return !stop.requested();
+}
+
+int run_service(int argc, char** argv, const std::string& kind,
+                const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
+                const std::function<int(Service&)>& run) {
+  CLI::App app{"Quoin service of kind " + kind + ", as described in a deployment file"};
+  std::string deployment_file;
+  std::string service_name;
+  std::size_t observers = 0;
+  app.add_option("--deployment", deployment_file, "Deployment file (YAML)")->required();
+  app.add_option("--service", service_name, "Name of this service in it")->required();
+  app.add_option("--observers", observers,
+                 "Readers outside the deployment to wait for before the first scan");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_configuration;
+  }
+
+  spdlog::set_default_logger(spdlog::stderr_color_mt(service_name));
+  spdlog::set_pattern("%H:%M:%S.%e [%n] %^%l%$ %v");
+  try {
+    StopSignal stop;
+    const deploy::Deployment deployment = deploy::load_deployment(deployment_file);
+    const deploy::ServiceConfig& config = find_service(deployment, service_name, kind);
+    check(deployment, config);
+    Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers);
+    return run(service);
+  } catch (const deploy::DeploymentError& error) {
+    for (const std::string& message : error.messages()) spdlog::error("{}", message);
+    return exit_configuration;
+  } catch (const ParameterError& error) {
+    spdlog::error("{}: parameter '{}': {}", deployment_file, error.parameter(), error.what());
+    return exit_configuration;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return exit_failure;
+  }
+}
+
+}  // namespace quoin::runtime

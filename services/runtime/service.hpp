@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "deploy/deployment/deployment.hpp"
+#include "services/runtime/heartbeat.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace quoin::runtime {
+
+/// Exit codes of all programs.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_failure = 1,
+  exit_configuration = 2,  ///< wrong usage or configuration: starting again does not help
+  exit_input = 3,          ///< a source's input became unusable
+};
+
+/// What every service process has.
+struct Service {
+  StopSignal& stop;
+  const deploy::Deployment& deployment;
+  const deploy::ServiceConfig& config;
+  Participant participant;
+  Heartbeat heartbeat;
+  /// Readers of the output to wait for before the input is opened.
+  std::size_t expected_readers;
+
+  Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
+          const deploy::ServiceConfig& service_config, std::size_t readers);
+
+  /// Waits until `writer` has the expected readers; goes on without them after ten seconds, since a
+  /// reader that crashed must not hold up the others. False when asked to stop meanwhile.
+  [[nodiscard]] bool wait_for_readers(const WriterBase& writer);
+};
+
+/// The part of main that all services share: command line (--deployment FILE --service NAME), log,
+/// deployment file, signals. `check` runs before DDS is touched, for errors in the configuration
+/// that only the service can find; `run` does the work and returns the exit code.
+int run_service(int argc, char** argv, const std::string& kind,
+                const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
+                const std::function<int(Service&)>& run);
+
+}  // namespace quoin::runtime

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/source.hpp"
+
+#include <exception>
+
+#include <spdlog/spdlog.h>
+
+#include "services/runtime/clock.hpp"
+#include "services/runtime/delivery.hpp"
+#include "services/runtime/service.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+class PublishingSource final : public Source {
+ public:
+  PublishingSource(Service& service, Writer<msg::Scan>& writer)
+      : service_(service), writer_(writer), lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
+
+  [[nodiscard]] const deploy::ServiceConfig& config() const override { return service_.config; }
+  [[nodiscard]] std::filesystem::path base_directory() const override {
+    return service_.deployment.file.parent_path();
+  }
+  [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time) override {
+    return service_.stop.wait_until(time);
+  }
+  [[nodiscard]] bool stopping() const override { return service_.stop.requested(); }
+
+  bool publish(msg::Scan& scan) override {
+    if (stopping()) return false;
+    msg::Header& header = scan.header();
+    header.sensor(config().name);
+    header.sequence_number(next_sequence_++);
+    header.trace().resize(1);
+    msg::StageTrace& trace = header.trace()[0];
+    trace.service(config().name);
+    trace.incarnation(service_.heartbeat.incarnation());
+    trace.index(next_index_);
+    trace.received(now_ns());
+    const bool delivered = deliver(writer_, scan, trace, lossless_, service_.stop);
+    if (delivered) {
+      ++next_index_;
+      service_.heartbeat.count_published(trace.published(), trace.received(), trace.published(), 0);
+    } else {
+      service_.heartbeat.count_loss(LossCause::publishing);
+    }
+    return !stopping();
+  }
+
+  void warn(const std::string& text) override {
+    spdlog::warn("{}", text);
+    service_.heartbeat.set_detail(text);
+  }
+
+ private:
+  Service& service_;
+  Writer<msg::Scan>& writer_;
+  bool lossless_;
+  std::uint64_t next_sequence_ = 0;
+  std::uint64_t next_index_ = 0;
+};
+
+int publish_all(Service& service, const std::function<void(Source&)>& body) {
+  Writer<msg::Scan> writer(service.participant, deploy::output_topic(service.deployment, service.config),
+                           qos_preset(service.config.qos));
+  service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
+    status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));
+    status.incompatible_qos(writer.incompatible_qos());
+  });
+  int exit_code = exit_ok;
+  msg::ServiceState state = msg::ServiceState::STATE_STOPPED;
+  std::string detail;
+  if (service.wait_for_readers(writer)) {
+    service.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
+    PublishingSource source(service, writer);
+    try {
+      body(source);
+      if (!service.stop.requested()) state = msg::ServiceState::STATE_FINISHED;
+    } catch (const SourceError& error) {
+      spdlog::error("{}", error.what());
+      state = msg::ServiceState::STATE_FAILED;
+      detail = error.what();
+      exit_code = exit_input;
+    }
+  }
+  // What has been written must reach the readers before the writer goes.
+  if (!writer.wait_for_acknowledgments(std::chrono::seconds(2))) {
+    spdlog::warn("not all readers have acknowledged the last scans");
+  }
+  service.heartbeat.finish(state, detail);
+  return exit_code;
+}
+
+}  // namespace
+
+int run_source(int argc, char** argv, const std::string& kind, const SourceFactory& open) {
+  std::function<void(Source&)> body;
+  return run_service(
+      argc, argv, kind,
+      [&](const deploy::Deployment& deployment, const deploy::ServiceConfig& config) {
+        try {
+          body = open(config, deployment.file.parent_path());
+        } catch (const std::exception& error) {
+          throw deploy::DeploymentError({error.what()});
+        }
+      },
+      [&](Service& service) { return publish_all(service, body); });
+}
+
+}  // namespace quoin::runtime

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+
+#include "services/runtime/participant_impl.hpp"
+#include "services/runtime/writer.hpp"
+
+namespace quoin::runtime {
+
+struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
+  Impl(Participant& owner, const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type,
+       QosPreset preset);
+  ~Impl() override;
+
+  void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
+                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+  void on_offered_incompatible_qos(
+      eprosima::fastdds::dds::DataWriter*,
+      const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override;
+
+  Participant& participant;
+  std::string topic_name;
+  MatchState match;
+  eprosima::fastdds::dds::DataWriter* writer = nullptr;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "core/segmentation/segmenters.hpp"
+#include "services/messages/segments.hpp"
+#include "services/runtime/stage.hpp"
+
+using namespace quoin;
+
+namespace {
+
+struct Workspace {
+  Segmenter segment;
+  Points points;
+  std::vector<Segment> segments;
+};
+
+runtime::Process<msg::Scan, msg::Segments> make(const std::string& method, const ParameterSettings& parameters) {
+  auto work = std::make_shared<Workspace>();
+  work->segment = Segmenters::make<Segmenter>(method, parameters);
+  return [work](const msg::Scan& scan, msg::Segments& out) -> std::size_t {
+    convert(messages::scan_view(scan), work->points);
+    work->segment(work->points, messages::sensor_model(scan.sensor_model()), work->segments);
+    messages::fill_segments(scan, work->points, work->segments, out);
+    return work->segments.empty() ? 1 : 0;  // a scan without any line is counted
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return runtime::run_stage<msg::Scan, msg::Segments>(argc, argv, "segmentation", make);
+}

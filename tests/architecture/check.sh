@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Quoin authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Who may know whom. Prints each violation and fails when there is one.
+#   check.sh SOURCE_TREE
+set -u
+cd "${1:?source tree}" || exit 2
+violations=0
+
+# deny FOLDER PATTERN WHY: no source file below FOLDER includes what PATTERN (an extended regular
+# expression on the include's path) matches.
+deny() {
+  local found
+  found=$(grep -rnE --include='*.hpp' --include='*.cpp' "^#include [<\"]($2)" "$1") || return 0
+  printf '%s\n%s\n' "$3:" "$found"
+  violations=$((violations + 1))
+}
+
+dds='fastdds|fastrtps|fastcdr|.*PubSubTypes\.h'
+deny core "$dds|idl/|yaml-cpp|fstream|iostream|spdlog|services/|deploy/|sensor_bridge/" \
+  "core/ knows no DDS, no YAML, no files and nobody else"
+deny sensor_bridge "$dds|spdlog" "sensor_bridge/ reaches DDS through the service kit only"
+deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
+deny deploy 'core/(segmentation/iepf|fitting/(utls|wtls|wctls)|corners/adjacent|simulation)' \
+  "deploy/ describes methods through the method lists and runs none"
+deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
+deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
+for stage in segmentation line_fitting corner_estimation; do
+  deny "services/$stage" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"
+done
+deny services/runtime 'core/(segmentation|fitting|corners|simulation)|sensor_bridge/' \
+  "the service kit knows no algorithm"
+
+missing=$(git ls-files 2>/dev/null | grep -E '\.(hpp|cpp|idl|sh|cmake)$|CMakeLists\.txt$' |
+  xargs -r grep -LE 'SPDX-License-Identifier: Apache-2\.0')
+if [[ -n $missing ]]; then
+  printf 'no SPDX header:\n%s\n' "$missing"
+  violations=$((violations + 1))
+fi
+
+large=$(git ls-files 2>/dev/null | grep -E '(^|/)main\.cpp$' | grep -vE '^tests/' | xargs -r wc -l | awk '$2 != "total" && $1 > 60')
+if [[ -n $large ]]; then
+  printf 'a main file names input, output and function; these are too long:\n%s\n' "$large"
+  violations=$((violations + 1))
+fi
+
+((violations == 0)) || { echo "$violations rules broken"; exit 1; }
+echo "all rules kept"

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The Quoin authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Runs all benchmarks of a built tree and prints their figures: a table, or with --json one JSON object.
+# Every figure is a ratio of two things measured in the same run, or stands beside what it is measured against.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+bin=${QUOIN_BUILD_DIR:-$root/build}/bin
+format=table
+case "${1-}" in
+  "") ;;
+  --json) format=json ;;
+  *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
+esac
+for program in extraction_benchmark chain_benchmark; do
+  if [[ ! -x $bin/$program ]]; then
+    echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
+    exit 2
+  fi
+done
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+echo "extraction: one thread, 920 points" >&2
+"$bin/extraction_benchmark" --benchmark_out="$work/extraction.json" --benchmark_out_format=json \
+  --benchmark_repetitions=9 --benchmark_report_aggregates_only=true >"$work/extraction.txt" 2>&1
+"$bin/chain_benchmark" --extraction "$work/extraction.json" --format "$format"

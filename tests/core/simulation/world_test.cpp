@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/world.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "core/geometry/angle.hpp"
+#include "core/simulation/scanner.hpp"
+
+namespace quoin {
+namespace {
+
+TEST(World, KnowsItsCorners) {
+  World world;
+  world.add_polyline({{0, 0}, {2, 0}, {3, 0}, {3, 1}}, false);
+  const auto corners = world.corners();
+  ASSERT_EQ(corners.size(), 1U);  // (2, 0) is no corner, free ends are none
+  EXPECT_EQ(corners[0], Eigen::Vector2d(3, 0));
+}
+
+TEST(World, TravelsThereAndBack) {
+  World world;
+  EXPECT_EQ(world.pose_at(1.0).x, 0.0);
+  world.path = {{0, 0, 3.0}, {2, 0, -3.0}, {2, 1, 0.0}};
+  EXPECT_DOUBLE_EQ(world.pose_at(1.0).x, 1.0);
+  EXPECT_NEAR(std::abs(world.pose_at(1.0).theta), pi, 1e-12);  // the short way round
+  EXPECT_DOUBLE_EQ(world.pose_at(2.5).y, 0.5);
+  EXPECT_NEAR(world.pose_at(3.5).y, 0.5, 1e-12);
+  EXPECT_NEAR(world.pose_at(6.0).x, 0.0, 1e-12);
+  EXPECT_NEAR(world.pose_at(-1.0).x, 1.0, 1e-12);
+  EXPECT_NEAR(world.pose_at(7.0).x, 1.0, 1e-12);
+  world.path.resize(1);
+  EXPECT_DOUBLE_EQ(world.pose_at(5.0).theta, 3.0);
+}
+
+TEST(BuiltInWorlds, AreClosedAroundTheirPath) {
+  ASSERT_THAT(world_names(), testing::ElementsAre("domestic_room", "environment_a", "environment_b",
+                                                  "corridor", "square_room"));
+  EXPECT_FALSE(built_in_world("nowhere"));
+  for (const std::string& name : world_names()) {
+    const World world = built_in_world(name).value();
+    EXPECT_EQ(world.name, name);
+    EXPECT_GE(world.corners().size(), 4U);
+    for (double distance = 0.0; distance < 12.0; distance += 0.1) {
+      const Pose2 pose = world.pose_at(distance);
+      for (int k = 0; k < 360; ++k) {
+        const double bearing = k * pi / 180.0;
+        const double range =
+            cast_ray(world, {pose.x, pose.y}, {std::cos(bearing), std::sin(bearing)});
+        ASSERT_GT(range, 0.15) << name << " " << distance;
+        ASSERT_LT(range, 20.0) << name << " " << distance;
+      }
+    }
+  }
+}
+
+TEST(BuiltInWorlds, ShowAllCornersOfTheSquareRoom) {
+  const World world = built_in_world("square_room").value();
+  for (const Eigen::Vector2d& corner : world.corners()) {
+    const Eigen::Vector2d origin(world.path[0].x, world.path[0].y);
+    const Eigen::Vector2d ray = corner - origin;
+    EXPECT_NEAR(cast_ray(world, origin, ray.normalized()), ray.norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace quoin

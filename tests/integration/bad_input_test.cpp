@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <zlib.h>
+
+#include <csignal>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <idl/Lines.h>
+#include <idl/Scan.h>
+#include <idl/Segments.h>
+
+#include "services/runtime/clock.hpp"
+#include "services/runtime/writer.hpp"
+#include "tests/integration/harness/deployment.hpp"
+
+namespace quoin {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using tests::CornerRecorder;
+using tests::Process;
+using tests::StatusRecorder;
+using tests::TestDeployment;
+
+const char* const chain = R"(
+  - {name: front, kind: simulated}
+  - {name: walls, kind: segmentation, input: front, method: iepf}
+  - {name: wctls, kind: line_fitting, input: walls, method: wctls}
+  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}
+)";
+
+msg::Header header(std::uint64_t sequence_number) {
+  msg::Header made;
+  made.sensor("front");
+  made.sequence_number(sequence_number);
+  made.stamp(runtime::now_ns());
+  made.trace().resize(1);
+  made.trace()[0].service("front");
+  made.trace()[0].incarnation(1);
+  made.trace()[0].index(sequence_number);
+  made.trace()[0].published(runtime::now_ns());
+  return made;
+}
+
+/// Scans as no healthy sensor sends them.
+std::vector<msg::Scan> strange_scans() {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  std::vector<msg::Scan> scans(7);
+  // 0: nothing at all
+  scans[1].bearings({0.0F});
+  scans[1].ranges({1.0F});
+  scans[2].bearings({0.0F, 0.1F, 0.2F, 0.3F});  // more bearings than ranges
+  scans[2].ranges({1.0F, 1.0F});
+  scans[3].bearings(std::vector<float>(100, nan));
+  scans[3].ranges(std::vector<float>(100, nan));
+  scans[4].bearings(std::vector<float>(100, 0.5F));  // all points equal
+  scans[4].ranges(std::vector<float>(100, 2.0F));
+  scans[5].bearings(std::vector<float>(100, inf));
+  scans[5].ranges(std::vector<float>(100, -inf));
+  scans[6].bearings({0.0F, 1e30F, -1e30F});
+  scans[6].ranges({1e30F, 1.0F, 1e-30F});
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    scans[i].header(header(i));
+    scans[i].range_max(inf);
+    scans[i].sensor_model().range_stddev(0.01);
+    scans[i].sensor_model().bearing_stddev(0.002);
+  }
+  return scans;
+}
+
+TEST(BadInput, StrangeScansGiveEmptyResultsThatAreCounted) {
+  const TestDeployment deployment(chain);
+  runtime::Participant participant(deployment.participant("test"));
+  CornerRecorder recorder(participant, deployment, "corners");
+  StatusRecorder status(participant, deployment);
+  runtime::Writer<msg::Scan> writer(participant, deployment.topic("front"), runtime::QosPreset::sensor);
+  const Process corners = deployment.start("corners", 1);
+  const Process wctls = deployment.start("wctls");
+  const Process walls = deployment.start("walls");
+  ASSERT_TRUE(writer.wait_for_readers(1, 20s));
+  const auto scans = strange_scans();
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    ASSERT_TRUE(writer.write(scans[i]));
+    ASSERT_TRUE(recorder.wait_for(i + 1)) << "no result for scan " << i;
+    EXPECT_TRUE(recorder.messages().back().corners().empty()) << i;
+  }
+  EXPECT_EQ(recorder.accounting().lost(), 0U);
+  EXPECT_TRUE(status.wait_for("walls", [&](const auto& s) { return s.failures() == scans.size(); }));
+  EXPECT_EQ(status.latest("walls").lost(), 0U);
+}
+
+TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
+  const TestDeployment deployment(chain);
+  runtime::Participant participant(deployment.participant("test"));
+  CornerRecorder recorder(participant, deployment, "corners");
+  StatusRecorder status(participant, deployment);
+  runtime::Writer<msg::Segments> writer(participant, deployment.topic("walls"), runtime::QosPreset::feature);
+  const Process corners = deployment.start("corners", 1);
+  const Process wctls = deployment.start("wctls");
+  ASSERT_TRUE(writer.wait_for_readers(1, 20s));
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    msg::Segments segments;
+    segments.header(header(i));
+    segments.bearings().resize(10);
+    segments.ranges().resize(10);
+    segments.segments().resize(1);
+    segments.segments()[0].end(i == 1 ? 4'000'000'000U : 10U);
+    ASSERT_TRUE(writer.write(segments));
+  }
+  ASSERT_TRUE(recorder.wait_for(2));
+  EXPECT_EQ(recorder.messages()[1].header().sequence_number(), 2U);
+  EXPECT_THAT(recorder.accounting().lost_by_stage(), testing::ElementsAre(testing::Pair("wctls", 1)));
+  EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));
+  EXPECT_EQ(status.latest("wctls").published(), 2U);
+  EXPECT_EQ(status.latest("wctls").lost(), 1U);
+  ASSERT_EQ(status.latest("wctls").losses().size(), 1U);
+  EXPECT_EQ(status.latest("wctls").losses()[0].cause(), "processing");
+}
+
+std::string carmen_line(int points) {
+  std::string line = "FLASER " + std::to_string(points);
+  for (int i = 0; i < points; ++i) line += " 2.5";
+  return line + " 0 0 0 0 0 0 1.0 host 1.0\n";
+}
+
+std::string replay_chain(const std::filesystem::path& file) {
+  return "  - {name: front, kind: replay, parameters: {path: " + file.string() +
+         ", speed: 0}}\n"
+         "  - {name: walls, kind: segmentation, input: front}\n"
+         "  - {name: wctls, kind: line_fitting, input: walls}\n"
+         "  - {name: corners, kind: corner_estimation, input: wctls}\n";
+}
+
+TEST(BadInput, GoodScansBeforeAMalformedLineAreStillPublished) {
+  const tests::TemporaryDirectory folder;
+  const auto log = folder.write("walls.log", carmen_line(180) + carmen_line(180) + "FLASER 180 1.0 2.0 oops\n");
+  const TestDeployment deployment(replay_chain(log), "qos: lossless\n");
+  runtime::Participant participant(deployment.participant("test"));
+  CornerRecorder recorder(participant, deployment, "corners");
+  const Process corners = deployment.start("corners", 1);
+  const Process wctls = deployment.start("wctls");
+  const Process walls = deployment.start("walls");
+  Process front = deployment.start("front");
+  EXPECT_TRUE(recorder.wait_for(2));
+  EXPECT_EQ(front.wait(20s), 3);
+  EXPECT_THAT(front.errors(), HasSubstr(log.string() + ":3:"));
+  EXPECT_EQ(recorder.poll(), 2U);
+}
+
+TEST(BadInput, AMissingScanFileStopsTheStart) {
+  const TestDeployment deployment(replay_chain("/nonexistent/scans.log"));
+  Process front = deployment.start("front");
+  EXPECT_EQ(front.wait(20s), 2);
+  EXPECT_THAT(front.errors(), HasSubstr("/nonexistent/scans.log"));
+}
+
+TEST(BadInput, AMalformedDeploymentStartsNothing) {
+  const tests::TemporaryDirectory folder;
+  const auto file = folder.write("broken.yaml", "version: 1\nservices:\n  - {name: front, kind: lidar}\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"check", file.string()}, {"up", file.string(), "--duration", "1"}}) {
+    Process quoin("quoin", arguments, folder.path());
+    EXPECT_EQ(quoin.wait(20s), 2) << arguments[0];
+    EXPECT_THAT(quoin.errors(), HasSubstr(file.string() + ":3:25: unknown kind 'lidar'")) << arguments[0];
+  }
+}
+
+TEST(BadInput, AServiceRefusesAWrongCommandLine) {
+  const TestDeployment deployment(chain);
+  Process unknown("quoin-line-fitting", {"--deployment", deployment.file().string(), "--service", "wclts"},
+                  deployment.directory().path());
+  EXPECT_EQ(unknown.wait(20s), 2);
+  EXPECT_THAT(unknown.errors(), HasSubstr("did you mean 'wctls'?"));
+  Process none("quoin-line-fitting", {}, deployment.directory().path());
+  EXPECT_EQ(none.wait(20s), 2);
+}
+
+}  // namespace
+}  // namespace quoin

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/integration/harness/deployment.hpp"
+
+#include "deploy/deployment/kinds.hpp"
+#include "tests/services/runtime/dds_test_scope.hpp"
+
+namespace quoin::tests {
+
+TestDeployment::TestDeployment(const std::string& services, const std::string& head)
+    : file_(directory_.write("deployment.yaml", "version: 1\nnamespace: " + test_namespace() +
+                                                    "\ndomain: " + std::to_string(test_domain()) + "\n" +
+                                                    head + "services:\n" + services)),
+      deployment_(deploy::load_deployment(file_)) {}
+
+Process TestDeployment::start(const std::string& service, int observers) const {
+  const deploy::KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);
+  return Process(kind->program,
+                 {"--deployment", file_.string(), "--service", service, "--observers", std::to_string(observers)},
+                 directory_.path());
+}
+
+Process TestDeployment::quoin(std::vector<std::string> arguments) const {
+  for (std::string& argument : arguments) {
+    if (argument == "FILE") argument = file_.string();
+  }
+  return Process("quoin", arguments, directory_.path());
+}
+
+CornerRecorder::CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
+                               const std::string& service)
+    : reader_(participant, deployment.topic(service),
+              runtime::qos_preset(deployment.deployment().service(service).qos)) {}
+
+std::size_t CornerRecorder::poll() {
+  msg::Corners message;
+  while (reader_.take(message)) {
+    accounting_.receive(message.header());
+    messages_.push_back(message);
+  }
+  return messages_.size();
+}
+
+bool CornerRecorder::wait_for(std::size_t count, std::chrono::milliseconds timeout) {
+  return eventually([&] { return poll() >= count; }, timeout);
+}
+
+StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)
+    : reader_(participant, deploy::status_topic(deployment.deployment().name_space), runtime::QosPreset::state) {}
+
+void StatusRecorder::poll() {
+  msg::ServiceStatus status;
+  while (reader_.take(status)) latest_[status.service()] = status;
+}
+
+}  // namespace quoin::tests

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <idl/Corners.h>
+#include <idl/Status.h>
+
+#include "deploy/deployment/deployment.hpp"
+#include "services/runtime/accounting.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/reader.hpp"
+#include "tests/integration/harness/process.hpp"
+
+namespace quoin::tests {
+
+/// A deployment file in a folder of its own, on a domain and namespace of its own.
+class TestDeployment {
+ public:
+  /// `services`: the text behind "services:", two spaces in. `head`: more lines before it.
+  explicit TestDeployment(const std::string& services, const std::string& head = "");
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const TemporaryDirectory& directory() const { return directory_; }
+  [[nodiscard]] const deploy::Deployment& deployment() const { return deployment_; }
+  [[nodiscard]] std::string topic(const std::string& service) const {
+    return deploy::output_topic(deployment_, deployment_.service(service));
+  }
+  [[nodiscard]] runtime::ParticipantConfig participant(const std::string& name) const {
+    return {deployment_.domain, name};
+  }
+
+  /// Starts the process of one service; `observers` readers of this test are waited for.
+  [[nodiscard]] Process start(const std::string& service, int observers = 0) const;
+  /// `quoin` with arguments; "FILE" stands for the deployment file.
+  [[nodiscard]] Process quoin(std::vector<std::string> arguments) const;
+
+ private:
+  TemporaryDirectory directory_;
+  std::filesystem::path file_;
+  deploy::Deployment deployment_;
+};
+
+/// All corners of one service, as they come.
+class CornerRecorder {
+ public:
+  CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment, const std::string& service);
+
+  /// Takes what is there; returns the number of messages so far.
+  std::size_t poll();
+  /// True once `count` messages came.
+  bool wait_for(std::size_t count, std::chrono::milliseconds timeout = std::chrono::seconds(30));
+  [[nodiscard]] const std::vector<msg::Corners>& messages() const { return messages_; }
+  [[nodiscard]] const runtime::ScanAccounting& accounting() const { return accounting_; }
+
+ private:
+  runtime::Reader<msg::Corners> reader_;
+  runtime::ScanAccounting accounting_;
+  std::vector<msg::Corners> messages_;
+};
+
+/// The latest heartbeat of every service.
+class StatusRecorder {
+ public:
+  StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment);
+
+  /// True once the latest heartbeat of `service` fulfils `condition`.
+  template <class Condition>
+  bool wait_for(const std::string& service, Condition condition,
+                std::chrono::milliseconds timeout = std::chrono::seconds(20)) {
+    return eventually(
+        [&] {
+          poll();
+          const auto found = latest_.find(service);
+          return found != latest_.end() && condition(found->second);
+        },
+        timeout);
+  }
+  [[nodiscard]] const msg::ServiceStatus& latest(const std::string& service) { return latest_[service]; }
+
+ private:
+  void poll();
+
+  runtime::Reader<msg::ServiceStatus> reader_;
+  std::map<std::string, msg::ServiceStatus> latest_;
+};
+
+}  // namespace quoin::tests

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/harness/deployment.hpp"
+
+namespace quoin {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using tests::Process;
+using tests::StatusRecorder;
+using tests::TestDeployment;
+
+std::string chain(const std::string& source_parameters) {
+  return "  - {name: front, kind: simulated, parameters: {" + source_parameters +
+         "}}\n"
+         "  - {name: walls, kind: segmentation, input: front, method: iepf}\n"
+         "  - {name: wctls, kind: line_fitting, input: walls, method: wctls}\n"
+         "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n";
+}
+
+/// Processes whose command line names `text`.
+std::set<pid_t> processes_naming(const std::string& text) {
+  std::set<pid_t> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream file(entry.path() / "cmdline");
+    const std::string command((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (command.find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
+  }
+  return found;
+}
+
+std::set<std::string> shared_memory_files() {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
+    files.insert(entry.path().filename());
+  }
+  return files;
+}
+
+TEST(Up, RunsAFiniteSourceToItsEndAndSumsUp) {
+  const TestDeployment deployment(chain("rate_hz: 50, scans: 200"));
+  Process up = deployment.quoin({"up", "FILE", "--json"});
+  ASSERT_EQ(up.wait(60s), 0) << up.errors();
+  const json result = json::parse(up.output());
+  EXPECT_EQ(result["scans_published"], 200);
+  for (const char* name : {"walls", "wctls", "corners"}) {
+    SCOPED_TRACE(name);
+    const json& service = result["services"][name];
+    EXPECT_EQ(service["received"], 200);
+    EXPECT_EQ(service["published"], 200);
+    EXPECT_EQ(service["lost"], 0);
+    EXPECT_EQ(service["restarts"], 0);
+    EXPECT_GT(service["latency_p50_us"], 0.0);
+    EXPECT_GE(service["latency_p99_us"], service["latency_p50_us"]);
+    EXPECT_GT(service["resident_memory_bytes"], 1'000'000);
+  }
+  const json& corners = result["corners"]["corners"];
+  EXPECT_EQ(corners["scans_expected"], 200);
+  EXPECT_EQ(corners["scans_delivered"], 200);
+  EXPECT_EQ(corners["scans_lost"], 0);
+  EXPECT_GT(corners["mean_corners"], 4.0);
+  EXPECT_GT(corners["median_sigma_mm"], 0.1);
+  EXPECT_LT(corners["median_sigma_mm"], 50.0);
+  EXPECT_GT(corners["median_ellipse_area_mm2"], 1.0);
+}
+
+TEST(Up, EndsAfterItsDuration) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  Process up = deployment.quoin({"up", "FILE", "--json", "--duration", "2"});
+  ASSERT_EQ(up.wait(60s), 0) << up.errors();
+  const json result = json::parse(up.output());
+  const auto published = result["scans_published"].get<int>();
+  EXPECT_GT(published, 0);
+  EXPECT_EQ(result["corners"]["corners"]["scans_delivered"], published) << "what was in flight has arrived";
+  EXPECT_EQ(result["corners"]["corners"]["scans_lost"], 0);
+}
+
+TEST(Up, CtrlCLeavesNothingBehind) {
+  const auto shared_memory = shared_memory_files();
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE"});
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 10; }));
+  EXPECT_EQ(processes_naming(deployment.file()).size(), 5U) << "quoin and four services";
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(30s), 0) << up.errors();
+  EXPECT_THAT(processes_naming(deployment.file()), IsEmpty());
+  EXPECT_THAT(shared_memory_files(), testing::IsSubsetOf(shared_memory));
+}
+
+TEST(Up, NoServiceOutlivesAKilledQuoin) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 10; }));
+  up.signal(SIGKILL);
+  EXPECT_EQ(up.wait(10s), 128 + SIGKILL);
+  EXPECT_TRUE(tests::eventually([&] { return processes_naming(deployment.file()).empty(); }));
+}
+
+TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE", "--json"});
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 50; }));
+  const auto first = status.latest("walls");
+  ASSERT_EQ(kill(static_cast<pid_t>(first.pid()), SIGKILL), 0);
+  ASSERT_TRUE(status.wait_for("walls", [&](const auto& s) {
+    return s.incarnation() != first.incarnation() && s.published() > 50;
+  }));
+  up.signal(SIGINT);
+  ASSERT_EQ(up.wait(30s), 0) << up.errors();
+  EXPECT_THAT(up.errors(), HasSubstr("walls"));
+  const json result = json::parse(up.output());
+  EXPECT_EQ(result["services"]["walls"]["restarts"], 1);
+  const json& corners = result["corners"]["corners"];
+  EXPECT_EQ(corners["scans_delivered"].get<int>() + corners["scans_lost"].get<int>(), corners["scans_expected"].get<int>());
+  EXPECT_GT(corners["lost_by_stage"]["walls"], 0);
+}
+
+TEST(Status, ListsWhatRuns) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 10; }));
+  Process listing = deployment.quoin({"status", "FILE", "--json"});
+  ASSERT_EQ(listing.wait(20s), 0) << listing.errors();
+  EXPECT_THAT(listing.output(), HasSubstr("wctls"));
+  EXPECT_TRUE(json::accept(listing.output()));
+}
+
+TEST(Echo, PrintsTheMessagesOfAService) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  for (const char* service : {"front", "walls", "wctls", "corners"}) {
+    SCOPED_TRACE(service);
+    Process echo = deployment.quoin({"echo", "FILE", service, "--count", "2", "--json"});
+    ASSERT_EQ(echo.wait(30s), 0) << echo.errors();
+    std::istringstream lines(echo.output());
+    std::string line;
+    int count = 0;
+    while (std::getline(lines, line)) {
+      EXPECT_TRUE(json::accept(line));
+      ++count;
+    }
+    EXPECT_EQ(count, 2);
+  }
+}
+
+TEST(Draw, MakesAPictureOfARunningDeployment) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  const auto picture = deployment.directory().path() / "scan.svg";
+  Process draw = deployment.quoin({"draw", "FILE", "--service", "corners", "-o", picture.string(), "--run"});
+  ASSERT_EQ(draw.wait(60s), 0) << draw.errors();
+  std::ifstream file(picture);
+  const std::string svg((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_THAT(svg, HasSubstr("<svg"));
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+}
+
+}  // namespace
+}  // namespace quoin

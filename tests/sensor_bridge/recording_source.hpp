@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "services/runtime/source.hpp"
+
+namespace quoin::testing {
+
+/// A service kit that never waits and keeps what is published.
+class RecordingSource : public runtime::Source {
+ public:
+  const deploy::ServiceConfig& config() const override { return config_; }
+  std::filesystem::path base_directory() const override { return "."; }
+
+  bool wait_until(std::chrono::steady_clock::time_point time) override {
+    deadlines.push_back(time);
+    return !stopping();
+  }
+  bool stopping() const override { return scans.size() >= stop_after; }
+  bool publish(msg::Scan& scan) override {
+    scans.push_back(scan);
+    memory.push_back(scan.ranges().data());
+    return !stopping();
+  }
+  void warn(const std::string& text) override { warnings.push_back(text); }
+
+  std::size_t stop_after = 10000;  ///< published scans
+  std::vector<std::chrono::steady_clock::time_point> deadlines;
+  std::vector<msg::Scan> scans;
+  std::vector<const float*> memory;  ///< of the ranges of the published messages
+  std::vector<std::string> warnings;
+
+ private:
+  deploy::ServiceConfig config_;
+};
+
+/// The configuration of a source with these parameters.
+inline deploy::ServiceConfig source_config(ParameterSettings parameters) {
+  deploy::ServiceConfig config;
+  config.parameters = std::move(parameters);
+  return config;
+}
+
+}  // namespace quoin::testing

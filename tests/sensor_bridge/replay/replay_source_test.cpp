@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_bridge/replay/replay_source.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sensor_bridge/replay/line_reader.hpp"
+#include "tests/sensor_bridge/recording_source.hpp"
+#include "tests/sensor_bridge/temporary_folder.hpp"
+
+namespace quoin::sensor_bridge {
+namespace {
+
+using quoin::testing::error_of;
+using quoin::testing::RecordingSource;
+using quoin::testing::source_config;
+using quoin::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+
+std::string flaser(const std::string& ranges, const std::string& stamp) {
+  return "FLASER 2 " + ranges + " 1 2 0.5 3 4 0.25 " + stamp + " host 13\n";
+}
+
+TEST(ReplaySource, PublishesEveryScanAndReturns) {
+  const TemporaryFolder folder;
+  folder.write("a.log", flaser("1 81.91", "7") + flaser("0.01 0", "7.5"));
+  const auto body = open_replay(source_config({{"path", "a.log"},
+                                               {"range_min", "0.05"},
+                                               {"range_stddev", "0.02"},
+                                               {"bearing_stddev", "0.003"},
+                                               {"range_bias_stddev", "0.004"},
+                                               {"frame", "front_laser"}}),
+                                folder.path());
+  RecordingSource source;
+  const auto before = std::chrono::system_clock::now();
+  body(source);
+  const auto after = std::chrono::system_clock::now();
+
+  ASSERT_EQ(source.scans.size(), 2U);
+  const msg::Scan& scan = source.scans[0];
+  EXPECT_EQ(scan.header().frame(), "front_laser");
+  EXPECT_GE(scan.header().stamp(), std::chrono::nanoseconds(before.time_since_epoch()).count());
+  EXPECT_LE(scan.header().stamp(), std::chrono::nanoseconds(after.time_since_epoch()).count());
+  EXPECT_EQ(scan.sensor_model().range_stddev(), 0.02);
+  EXPECT_EQ(scan.sensor_model().bearing_stddev(), 0.003);
+  EXPECT_EQ(scan.sensor_model().range_bias_stddev(), 0.004);
+  EXPECT_EQ(scan.range_min(), 0.05F);
+  EXPECT_EQ(scan.range_max(), 80.0F);
+  EXPECT_EQ(scan.duration(), 0.0F);
+  EXPECT_THAT(scan.ranges(), ElementsAre(1.0F, INFINITY));
+  EXPECT_EQ(scan.bearings().size(), 2U);
+  EXPECT_TRUE(scan.time_offsets().empty() && scan.qualities().empty());
+  EXPECT_EQ(source.scans[1].ranges()[0], -INFINITY);
+  EXPECT_TRUE(std::isnan(source.scans[1].ranges()[1]));
+  EXPECT_EQ(source.deadlines[1] - source.deadlines[0], std::chrono::milliseconds(500));
+  EXPECT_EQ(source.memory[0], source.memory[1]);
+  EXPECT_THAT(source.warnings, ElementsAre());
+}
+
+TEST(ReplaySource, StopsAfterTheNumberOfScansAskedFor) {
+  const TemporaryFolder folder;
+  folder.write("a.csv", "0,1\n");
+  RecordingSource once;
+  open_replay(source_config({{"path", "a.csv"}, {"scans", "5"}}), folder.path())(once);
+  EXPECT_EQ(once.scans.size(), 1U);
+  RecordingSource looped;
+  open_replay(source_config({{"path", "a.csv"}, {"scans", "5"}, {"loop", "true"}}),
+              folder.path())(looped);
+  EXPECT_EQ(looped.scans.size(), 5U);
+  EXPECT_THAT(looped.warnings, ElementsAre());
+}
+
+TEST(ReplaySource, StopsWhenAsked) {
+  const TemporaryFolder folder;
+  folder.write("a.csv", "0,1\n");
+  RecordingSource source;
+  source.stop_after = 3;
+  open_replay(source_config({{"path", "a.csv"}, {"loop", "true"}, {"speed", "0"}}),
+              folder.path())(source);
+  EXPECT_EQ(source.scans.size(), 3U);
+}
+
+TEST(ReplaySource, WarnsOfStampsThatCannotBeUsed) {
+  const TemporaryFolder folder;
+  folder.write("a.log",
+               flaser("1 1", "7") + flaser("1 1", "6") + flaser("1 1", "6") + flaser("1 1", "6.5"));
+  RecordingSource source;
+  open_replay(source_config({{"path", "a.log"}}), folder.path())(source);
+  EXPECT_EQ(source.scans.size(), 4U);
+  EXPECT_THAT(source.warnings,
+              ElementsAre("scan 1 has no usable time stamp; the last good period is kept",
+                          "2 scans had no usable time stamp"));
+}
+
+TEST(ReplaySource, PublishesTheGoodScansBeforeItFails) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("a.log", flaser("1 1", "7") + flaser("1 1", "8") + "FLASER 2 1");
+  const auto body = open_replay(source_config({{"path", "a.log"}}), folder.path());
+  RecordingSource source;
+  EXPECT_EQ(
+      error_of<runtime::SourceError>([&] { body(source); }),
+      file +
+          ":3:11: FLASER announces 2 ranges and 9 values after them, but the line ends after 1 of "
+          "these 11; the file is cut off or damaged here");
+  EXPECT_EQ(source.scans.size(), 2U);
+}
+
+TEST(ReplaySource, RefusesWhatIsMissingWhenOpened) {
+  EXPECT_EQ(error_of<ScanFileError>([] {
+              (void)open_replay(source_config({{"path", "a.log"}}), "/nowhere");
+            }),
+            "cannot read scan file '/nowhere/a.log': No such file or directory");
+  EXPECT_EQ(error_of<ParameterError>([] { (void)open_replay(source_config({}), "/nowhere"); }),
+            "parameter 'path' is missing; name a scan file or a folder of them");
+}
+
+}  // namespace
+}  // namespace quoin::sensor_bridge

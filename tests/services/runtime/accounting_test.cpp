@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/accounting.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace quoin::runtime {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Pair;
+using testing::UnorderedElementsAre;
+
+/// A pipeline whose stages can be told to drop or restart; makes the headers that reach its end.
+class Pipeline {
+ public:
+  Pipeline() : stages_{{"front", 1, 0}, {"walls", 1, 0}, {"wctls", 1, 0}} {}
+
+  /// The next scan, lost behind stage `delivered_by` - 1; arrives when no stage loses it.
+  msg::Header scan(std::size_t passed_stages = 3) {
+    msg::Header header;
+    header.sensor("front");
+    header.sequence_number(next_++);
+    for (std::size_t i = 0; i < std::min<std::size_t>(passed_stages, stages_.size()); ++i) {
+      msg::StageTrace trace;
+      trace.service(stages_[i].name);
+      trace.incarnation(stages_[i].incarnation);
+      trace.index(stages_[i].index++);
+      header.trace().push_back(trace);
+    }
+    return header;
+  }
+
+  void restart(std::size_t stage) {
+    ++stages_[stage].incarnation;
+    stages_[stage].index = 0;
+    if (stage == 0) next_ = 0;
+  }
+
+ private:
+  struct StageState {
+    std::string name;
+    std::uint64_t incarnation;
+    std::uint64_t index;
+  };
+  std::vector<StageState> stages_;
+  std::uint64_t next_ = 0;
+};
+
+TEST(ScanAccounting, CountsNothingWhenAllArrive) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 10; ++i) EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+  EXPECT_EQ(accounting.received(), 10U);
+  EXPECT_EQ(accounting.lost(), 0U);
+  EXPECT_EQ(accounting.first_sequence(), 0U);
+}
+
+TEST(ScanAccounting, ScansBeforeTheFirstMessageAreNotLost) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 7; ++i) (void)pipeline.scan();
+  accounting.receive(pipeline.scan());
+  EXPECT_EQ(accounting.lost(), 0U);
+  EXPECT_EQ(accounting.first_sequence(), 7U);
+}
+
+TEST(ScanAccounting, NamesTheStageThatDidNotDeliver) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  (void)pipeline.scan(1);  // never became segments
+  (void)pipeline.scan(2);  // never became lines
+  (void)pipeline.scan(2);
+  (void)pipeline.scan(3);  // published, did not arrive
+  const auto losses = accounting.receive(pipeline.scan());
+  ASSERT_EQ(losses.size(), 3U);
+  for (const Loss& loss : losses) {
+    EXPECT_EQ(loss.first_sequence, 1U);
+    EXPECT_EQ(loss.last_sequence, 4U);
+  }
+  EXPECT_THAT(accounting.lost_by_stage(),
+              UnorderedElementsAre(Pair("walls", 1), Pair("wctls", 2), Pair("link", 1)));
+  EXPECT_EQ(accounting.lost(), 4U);
+}
+
+TEST(ScanAccounting, ScansTheSourceCouldNotWriteAreItsOwnLoss) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  (void)pipeline.scan(0);
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("front", 1)));
+}
+
+TEST(ScanAccounting, ARestartedStageAnswersForTheScansInBetween) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  for (int i = 0; i < 5; ++i) (void)pipeline.scan(1);
+  pipeline.restart(1);
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("walls", 5)));
+}
+
+TEST(ScanAccounting, WhatALaterStageMadeTheRestartedOneMustHaveMadeToo) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  (void)pipeline.scan(3);  // passed by walls before its restart, lost on the last link
+  (void)pipeline.scan(1);
+  pipeline.restart(1);
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.lost_by_stage(), UnorderedElementsAre(Pair("walls", 1), Pair("link", 1)));
+}
+
+TEST(ScanAccounting, ARestartedSourceStartsAnew) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  pipeline.restart(0);
+  (void)pipeline.scan(1);
+  const auto losses = accounting.receive(pipeline.scan());
+  ASSERT_EQ(losses.size(), 1U);
+  EXPECT_EQ(losses[0].stage, "walls");
+  EXPECT_EQ(losses[0].first_sequence, 0U);
+  EXPECT_EQ(losses[0].last_sequence, 0U);
+  EXPECT_EQ(accounting.received(), 21U);
+}
+
+TEST(ScanAccounting, DoubledScansAreCountedApart) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  const msg::Header first = pipeline.scan();
+  const msg::Header second = pipeline.scan();
+  accounting.receive(first);
+  accounting.receive(second);
+  accounting.receive(second);
+  accounting.receive(first);
+  EXPECT_EQ(accounting.received(), 2U);
+  EXPECT_EQ(accounting.duplicates(), 2U);
+  EXPECT_EQ(accounting.lost(), 0U);
+}
+
+TEST(ScanAccounting, FinishCountsWhatNeverCame) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.finish(1), IsEmpty());
+  const auto losses = accounting.finish(4);
+  ASSERT_EQ(losses.size(), 1U);
+  EXPECT_EQ(losses[0].count, 3U);
+  EXPECT_EQ(losses[0].first_sequence, 1U);
+  EXPECT_EQ(losses[0].last_sequence, 3U);
+  EXPECT_EQ(accounting.lost(), 3U);
+}
+
+TEST(ScanAccounting, AHeaderWithoutTraceIsIgnored) {
+  ScanAccounting accounting;
+  EXPECT_THAT(accounting.receive(msg::Header{}), IsEmpty());
+  EXPECT_EQ(accounting.received(), 0U);
+}
+
+}  // namespace
+}  // namespace quoin::runtime

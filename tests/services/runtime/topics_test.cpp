@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <idl/Scan.h>
+#include <idl/Status.h>
+
+#include "services/runtime/participant.hpp"
+#include "services/runtime/qos.hpp"
+#include "services/runtime/reader.hpp"
+#include "services/runtime/writer.hpp"
+#include "tests/services/runtime/dds_test_scope.hpp"
+
+namespace quoin::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+using tests::test_domain;
+using tests::test_namespace;
+
+msg::Scan scan_of(std::size_t points, std::uint64_t sequence_number) {
+  msg::Scan scan;
+  scan.header().sensor("front");
+  scan.header().sequence_number(sequence_number);
+  scan.bearings().resize(points);
+  scan.ranges().resize(points);
+  std::iota(scan.ranges().begin(), scan.ranges().end(), 1.0F);
+  return scan;
+}
+
+/// Waits until the reader gave a message; false after ten seconds.
+template <class T>
+bool take_within(Reader<T>& reader, T& message, std::chrono::milliseconds timeout = 10s) {
+  WaitSet wait_set;
+  wait_set.add(reader);
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (reader.take(message)) return true;
+    wait_set.wait(100ms);
+  }
+  return false;
+}
+
+TEST(Topics, AScanArrivesAsItWasSent) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  Writer<msg::Scan> writer(sender, test_namespace() + "/front/scan", QosPreset::sensor);
+  Reader<msg::Scan> reader(receiver, test_namespace() + "/front/scan", QosPreset::sensor);
+  ASSERT_TRUE(writer.wait_for_readers(1, 10s));
+  ASSERT_TRUE(reader.wait_for_writers(1, 10s));
+  const msg::Scan sent = scan_of(1000, 42);
+  ASSERT_TRUE(writer.write(sent));
+  msg::Scan got;
+  ASSERT_TRUE(take_within(reader, got));
+  EXPECT_EQ(got.header().sequence_number(), 42U);
+  EXPECT_EQ(got.ranges(), sent.ranges());
+  EXPECT_FALSE(reader.take(got));
+}
+
+TEST(Topics, AScanLargerThanADatagramArrives) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  Writer<msg::Scan> writer(sender, test_namespace() + "/front/scan", QosPreset::sensor);
+  Reader<msg::Scan> reader(receiver, test_namespace() + "/front/scan", QosPreset::sensor);
+  ASSERT_TRUE(writer.wait_for_readers(1, 10s));
+  const msg::Scan sent = scan_of(100'000, 1);
+  ASSERT_TRUE(writer.write(sent));
+  msg::Scan got;
+  ASSERT_TRUE(take_within(reader, got));
+  EXPECT_EQ(got.ranges(), sent.ranges());
+}
+
+TEST(Topics, LosslessWaitsForASlowReader) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  Writer<msg::Scan> writer(sender, test_namespace() + "/front/scan", QosPreset::lossless);
+  Reader<msg::Scan> reader(receiver, test_namespace() + "/front/scan", QosPreset::lossless);
+  ASSERT_TRUE(writer.wait_for_readers(1, 10s));
+  constexpr std::uint64_t count = 1000;  // far more than both histories hold
+  std::atomic<bool> given_up = false;
+  std::thread sending([&] {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      while (!writer.write(scan_of(900, i)) && !given_up) {
+      }
+    }
+  });
+  msg::Scan got;
+  std::uint64_t expected = 0;
+  while (expected < count && take_within(reader, got)) {
+    ASSERT_EQ(got.header().sequence_number(), expected);
+    ++expected;
+  }
+  EXPECT_EQ(expected, count);
+  given_up = true;
+  sending.join();
+}
+
+TEST(Topics, SensorPresetNeverWaitsForASlowReader) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  Writer<msg::Scan> writer(sender, test_namespace() + "/front/scan", QosPreset::sensor);
+  Reader<msg::Scan> reader(receiver, test_namespace() + "/front/scan", QosPreset::sensor);
+  ASSERT_TRUE(writer.wait_for_readers(1, 10s));
+  for (std::uint64_t i = 0; i < 200; ++i) ASSERT_TRUE(writer.write(scan_of(900, i)));
+  ASSERT_TRUE(writer.wait_for_acknowledgments(10s));
+  msg::Scan got;
+  std::uint64_t taken = 0;
+  while (reader.take(got)) ++taken;
+  EXPECT_LE(taken, 5U) << "keeps the last five";
+  EXPECT_EQ(got.header().sequence_number(), 199U) << "and the newest of all";
+}
+
+TEST(Topics, StateReachesALateReaderOnceForEachService) {
+  Participant sender({test_domain(), "sender"});
+  Writer<msg::ServiceStatus> writer(sender, test_namespace() + "/status", QosPreset::state);
+  constexpr int services = 40;  // more than Fast DDS allows without set limits
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < services; ++i) {
+      msg::ServiceStatus status;
+      status.service("service_" + std::to_string(i));
+      status.received(static_cast<std::uint64_t>(round));
+      ASSERT_TRUE(writer.write(status)) << i;
+    }
+  }
+  Participant receiver({test_domain(), "receiver"});
+  Reader<msg::ServiceStatus> reader(receiver, test_namespace() + "/status", QosPreset::state);
+  std::vector<std::string> seen;
+  msg::ServiceStatus status;
+  while (seen.size() < services && take_within(reader, status)) {
+    EXPECT_EQ(status.received(), 2U) << "the latest only";
+    seen.push_back(status.service());
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(std::unique(seen.begin(), seen.end()) - seen.begin(), services);
+}
+
+TEST(Topics, AQosMismatchIsToldToBothSides) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  const std::string topic = test_namespace() + "/front/scan";
+  Writer<msg::Scan> writer(sender, topic, QosPreset::sensor);    // volatile
+  Reader<msg::Scan> reader(receiver, topic, QosPreset::state);   // asks for transient-local
+  const auto deadline = std::chrono::steady_clock::now() + 10s;
+  while ((writer.incompatible_qos().empty() || reader.incompatible_qos().empty()) &&
+         std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_THAT(writer.incompatible_qos(), testing::ElementsAre(topic + ": durability"));
+  EXPECT_THAT(reader.incompatible_qos(), testing::ElementsAre(topic + ": durability"));
+  EXPECT_EQ(writer.matched(), 0U);
+}
+
+TEST(Topics, WaitSetWakesUp) {
+  Participant receiver({test_domain(), "receiver"});
+  Reader<msg::Scan> reader(receiver, test_namespace() + "/front/scan", QosPreset::sensor);
+  WaitSet wait_set;
+  wait_set.add(reader);
+  std::thread waking([&] { wait_set.wake(); });
+  EXPECT_TRUE(wait_set.wait(10s));
+  waking.join();
+}
+
+TEST(Topics, UnknownPresetIsRefused) {
+  EXPECT_EQ(qos_preset("lossless"), QosPreset::lossless);
+  EXPECT_THROW((void)qos_preset("best"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace quoin::runtime
