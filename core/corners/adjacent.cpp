@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sensor/polar.hpp"
+
 namespace quoin {
 
 Adjacent::Adjacent(const Parameters& parameters)
@@ -16,10 +18,11 @@ bool Adjacent::find(std::span<const LineSegment> lines, std::size_t first, std::
   const LineSegment& b = lines[second];
   corner.gap = std::sqrt((b.start - a.end).squaredNorm());
   if (!(corner.gap <= parameters_.max_gap)) return false;
-  const double cross =
-      normals_[first].x() * normals_[second].y() - normals_[first].y() * normals_[second].x();
+  const Eigen::Vector2d normal_a(normals_.x[first], normals_.y[first]);
+  const Eigen::Vector2d normal_b(normals_.x[second], normals_.y[second]);
+  const double cross = normal_a.x() * normal_b.y() - normal_a.y() * normal_b.x();
   if (!(std::abs(cross) >= sine_of_min_angle_)) return false;
-  const auto estimate = intersect(a.estimate, normals_[first], b.estimate, normals_[second]);
+  const auto estimate = intersect(a.estimate, normal_a, b.estimate, normal_b);
   if (!estimate) return false;
   corner.extrapolation = std::sqrt(std::max((estimate->position - a.end).squaredNorm(),
                                             (estimate->position - b.start).squaredNorm()));
@@ -37,7 +40,12 @@ void Adjacent::operator()(std::span<const LineSegment> lines, double range_bias_
   const std::size_t count = lines.size();
   if (count < 2) return;
   normals_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) normals_[i] = lines[i].estimate.line.normal();
+  // All sines and cosines at once, as of points at unit distance.
+  for (std::size_t i = 0; i < count; ++i) {
+    normals_.range[i] = 1.0;
+    normals_.bearing[i] = lines[i].estimate.line.alpha;
+  }
+  compute_cartesian(normals_);
 
   Corner corner;
   for (std::size_t first = 0; first < count; ++first) {

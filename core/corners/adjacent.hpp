@@ -7,6 +7,7 @@
 
 #include "core/corners/corner_finder.hpp"
 #include "core/methods/parameter.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin {
 
@@ -48,7 +49,7 @@ class Adjacent {
 
   Parameters parameters_;
   double sine_of_min_angle_ = 0.0;
-  std::vector<Eigen::Vector2d> normals_;
+  Points normals_;  // x and y of the unit normals of the lines
 };
 
 }  // namespace quoin

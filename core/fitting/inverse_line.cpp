@@ -17,7 +17,8 @@ std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx, do
   const double half_trace = 0.5 * (m.xx + m.yy);
   if (!(determinant > rounding * half_trace * half_trace)) return std::nullopt;
   InverseLine line;
-  line.inverse = {m.yy / determinant, -m.xy / determinant, m.xx / determinant};
+  const double scale = 1.0 / determinant;
+  line.inverse = {m.yy * scale, -m.xy * scale, m.xx * scale};
   line.q = {line.inverse.xx * vx + line.inverse.xy * vy,
             line.inverse.xy * vx + line.inverse.yy * vy};
   return line;

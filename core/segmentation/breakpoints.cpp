@@ -49,6 +49,23 @@ void compute_excess(const double* __restrict range, const double* __restrict cos
   }
 }
 
+/// The first place from `begin` on whose value is positive, or `count`. Breaks are rare: blocks
+/// without one are passed over by vector instructions.
+QUOIN_MULTIVERSION
+std::size_t next_positive(const double* __restrict values, std::size_t begin, std::size_t count) {
+  constexpr std::size_t block = 32;
+  while (begin + block <= count) {
+    double largest = 0.0;
+    for (std::size_t i = begin; i < begin + block; ++i) {
+      largest = values[i] > largest ? values[i] : largest;
+    }
+    if (largest > 0.0) break;
+    begin += block;
+  }
+  while (begin < count && !(values[begin] > 0.0)) ++begin;
+  return begin;
+}
+
 }  // namespace
 
 BreakpointDetector::BreakpointDetector(double lambda)
@@ -64,13 +81,15 @@ bool BreakpointDetector::find(const PointsView& points, const SensorModel& senso
   compute_excess(points.range.data(), points.cosine.data(), points.sine.data(), points.x.data(),
                  points.y.data(), count, criterion, excess_.data());
   starts.push_back(0);
-  for (std::size_t i = 1; i < count; ++i) {
-    if (excess_[i] > 0.0) starts.push_back(i);
+  std::size_t i = next_positive(excess_.data(), 1, count);
+  while (i < count) {
+    starts.push_back(i);
+    i = next_positive(excess_.data(), i + 1, count);
   }
   starts.push_back(count);
 
-  const auto point = [&points](std::size_t i) {
-    return Point{points.range[i], points.cosine[i], points.sine[i], points.x[i], points.y[i]};
+  const auto point = [&points](std::size_t k) {
+    return Point{points.range[k], points.cosine[k], points.sine[k], points.x[k], points.y[k]};
   };
   return excess(point(count - 1), point(0), criterion) > 0.0;
 }

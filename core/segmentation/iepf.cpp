@@ -21,7 +21,8 @@ void Iepf::split(const PointsView& points, std::size_t begin, std::size_t end) {
     if (last - first >= 2) {
       const std::size_t count = last - first + 1;
       const FarthestPoint farthest =
-          farthest_from_chord(points.x.subspan(first, count), points.y.subspan(first, count));
+          farthest_from_chord(points.x.subspan(first, count), points.y.subspan(first, count),
+                              parameters_.split_distance);
       if (farthest.distance > parameters_.split_distance && farthest.index > 0 &&
           farthest.index + 1 < count) {
         const std::size_t vertex = first + farthest.index;

@@ -37,10 +37,9 @@ InnerFit fit_inner(const PointsView& points, const Segment& segment) {
 
 double distance_of_farthest(const PointsView& points, const Segment& segment, const InnerFit& fit) {
   if (segment.begin >= segment.end) return 0.0;
-  return farthest_from_line(points.x.subspan(segment.begin, segment.size()),
-                            points.y.subspan(segment.begin, segment.size()), fit.a / fit.norm,
-                            fit.b / fit.norm, 1.0 / fit.norm)
-      .distance;
+  return largest_distance(points.x.subspan(segment.begin, segment.size()),
+                          points.y.subspan(segment.begin, segment.size()), fit.a / fit.norm,
+                          fit.b / fit.norm, 1.0 / fit.norm);
 }
 
 /// The line through two neighbours and how well it matches.

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdlib>
 #include <functional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +23,14 @@ struct Command {
   CLI::App* line;
   std::function<int()> run;
 };
+
+/// Check for options that count or last.
+[[nodiscard]] inline CLI::Validator more_than_zero() {
+  const auto check = [](std::string& text) -> std::string {
+    return std::strtod(text.c_str(), nullptr) > 0.0 ? "" : "'" + text + "' is not more than 0";
+  };
+  return {check, "> 0"};
+}
 
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);

@@ -12,6 +12,7 @@
 #include "deploy/drawing/drawing.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
+#include "deploy/quoin/exclusive.hpp"
 #include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
@@ -40,6 +41,7 @@ class Companion {
   Companion(const DrawOptions& options, const Deployment& deployment, const CornerChain& chain)
       : display_(Display::Mode::quiet) {
     if (!options.run) return;
+    exclusive_.emplace(deployment);
     const auto observers = [&](const ServiceConfig& service) {
       return &service == chain.segmentation || &service == chain.line_fitting ||
                      &service == chain.corners
@@ -80,6 +82,7 @@ class Companion {
 
  private:
   Display display_;
+  std::optional<Exclusive> exclusive_;
   std::optional<Supervisor> supervisor_;
 };
 
@@ -154,7 +157,7 @@ Command add_draw(CLI::App& app) {
                    "Number of the scan, from 0; else the first that is complete");
   line->add_flag("--run", options->run, "Start the deployment for the picture and stop it again");
   line->add_option("--wait", options->wait, "Give up when nothing arrives for this time [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_zero())
       ->capture_default_str();
   line->add_option("--ellipse-scale", options->drawing.ellipse_scale,
                    "Draw ellipses enlarged this many times; 0 chooses what can be seen")

@@ -90,7 +90,7 @@ Command add_echo(CLI::App& app) {
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
   line->add_option("service", options->service, "Name of the service")->required();
   line->add_option("--count", options->count, "End after this many messages")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero());
   line->add_flag("--json", options->json, "All fields, as one JSON object a line");
   return {line, [options] { return run(*options); }};
 }

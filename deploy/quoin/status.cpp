@@ -160,7 +160,7 @@ Command add_status(CLI::App& app) {
   line->add_option("--namespace", options->name_space, "Namespace of the topics")->excludes(file);
   line->add_option("--wait", options->wait, "How long to listen [s]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero());
   line->add_flag("--json", options->json, "As a JSON object");
   return {line, [options] { return run(*options); }};
 }

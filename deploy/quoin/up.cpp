@@ -12,6 +12,7 @@
 #include "deploy/deployment/kinds.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
+#include "deploy/quoin/exclusive.hpp"
 #include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/signals.hpp"
@@ -44,6 +45,7 @@ class Run {
   explicit Run(const UpOptions& options)
       : options_(options),
         deployment_(load_deployment(options.file)),
+        exclusive_(deployment_),
         plans_(process_plans(deployment_,
                              [](const ServiceConfig& service) {
                                return find_kind(service.kind)->output == MessageType::corners ? 1
@@ -126,7 +128,7 @@ class Run {
     }
   }
 
-  /// Another deployment under the same names would mix its messages with ours.
+  /// Services started alone under the same names would mix their messages with ours.
   void warn_of_strangers() {
     for (const auto& [name, processes] : monitor_.processes()) {
       for (const int process : processes) {
@@ -181,6 +183,7 @@ class Run {
 
   UpOptions options_;
   Deployment deployment_;
+  Exclusive exclusive_;
   std::vector<ProcessPlan> plans_;
   Signals signals_;  // before the threads of the monitor
   Monitor monitor_;
@@ -204,7 +207,7 @@ Command add_up(CLI::App& app) {
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
   line->add_option("--duration", options->duration,
                    "Stop after this time [s], counted from when all are active")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_zero());
   line->add_flag("--json", options->json,
                  "Print the final figures as a JSON object; progress goes to standard error");
   line->add_flag("--quiet", options->quiet, "Show log lines only");

@@ -17,7 +17,8 @@ struct Workspace {
   std::vector<Corner> corners;
 };
 
-runtime::Process<msg::Lines, msg::Corners> make(const std::string& method, const ParameterSettings& parameters) {
+runtime::Process<msg::Lines, msg::Corners> make(const std::string& method,
+                                                const ParameterSettings& parameters) {
   auto work = std::make_shared<Workspace>();
   work->find = CornerFinders::make<CornerFinder>(method, parameters);
   return [work](const msg::Lines& in, msg::Corners& out) -> std::size_t {

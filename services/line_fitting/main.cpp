@@ -12,7 +12,8 @@ using namespace quoin;
 
 namespace {
 
-runtime::Process<msg::Segments, msg::Lines> make(const std::string& method, const ParameterSettings& parameters) {
+runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
+                                                 const ParameterSettings& parameters) {
   const auto fit = Fitters::make<Fitter>(method, parameters);
   const std::string mode = Fitters::setting(method, parameters, "covariance");
   auto points = std::make_shared<Points>();
@@ -25,7 +26,8 @@ runtime::Process<msg::Segments, msg::Lines> make(const std::string& method, cons
     out.lines().clear();
     out.failures().clear();
     for (std::uint32_t i = 0; i < in.segments().size(); ++i) {
-      const PointsView segment = points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
+      const PointsView segment =
+          points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
       const FitResult result = fit(segment, sensor);
       if (result.ok()) {
         messages::append_line(result.estimate, segment, sensor, i, out);

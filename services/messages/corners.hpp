@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include <idl/Corners.h>
+#include <vector>
 
 #include "core/corners/corner_finder.hpp"
 
 namespace quoin::messages {
 
 /// Everything but the header.
-void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode, msg::Corners& out);
+void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode,
+                  msg::Corners& out);
 
 }  // namespace quoin::messages

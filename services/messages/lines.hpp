@@ -3,9 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
 #include <idl/Lines.h>
+#include <vector>
 
 #include "core/corners/corner_finder.hpp"
 #include "core/fitting/fit.hpp"

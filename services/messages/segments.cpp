@@ -20,8 +20,8 @@ ScanView scan_view(const msg::Scan& scan) {
   return {scan.bearings(), scan.ranges(), scan.range_min(), scan.range_max()};
 }
 
-void fill_segments(const msg::Scan& scan, const Points& points, const std::vector<Segment>& segments,
-                   msg::Segments& out) {
+void fill_segments(const msg::Scan& scan, const Points& points,
+                   const std::vector<Segment>& segments, msg::Segments& out) {
   out.sensor_model(scan.sensor_model());
   out.scan_points(static_cast<std::uint32_t>(scan.ranges().size()));
   out.bearings().assign(points.bearing.begin(), points.bearing.end());

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+#include <vector>
 
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/scan.hpp"
@@ -20,8 +19,8 @@ namespace quoin::messages {
 [[nodiscard]] ScanView scan_view(const msg::Scan& scan);
 
 /// Everything but the header.
-void fill_segments(const msg::Scan& scan, const Points& points, const std::vector<Segment>& segments,
-                   msg::Segments& out);
+void fill_segments(const msg::Scan& scan, const Points& points,
+                   const std::vector<Segment>& segments, msg::Segments& out);
 
 /// True when every range of the message lies inside its points; a stranger may have sent it.
 [[nodiscard]] bool valid(const msg::Segments& message);

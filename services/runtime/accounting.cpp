@@ -6,67 +6,91 @@
 
 namespace quoin::runtime {
 
-namespace {
-
-// Results that the stage at `position` made between two messages that arrived.
-struct Made {
+// Results that a stage made between the last message and a new one, without the new one.
+struct ScanAccounting::Made {
   std::uint64_t count = 0;
   bool restarted = false;  // count is a lower bound: the end of the old process is not known
 };
 
-Made made_between(const msg::Header& before, const msg::Header& after, std::size_t position) {
-  const msg::StageTrace& now = after.trace()[position];
-  if (position < before.trace().size()) {
-    const msg::StageTrace& then = before.trace()[position];
-    if (then.service() == now.service() && then.incarnation() == now.incarnation()) {
-      return {now.index() > then.index() ? now.index() - then.index() - 1 : 0, false};
+ScanAccounting::Made ScanAccounting::made_since(const msg::Header& header,
+                                                std::size_t position) const {
+  const msg::StageTrace& now = header.trace()[position];
+  if (position < previous_->stages.size()) {
+    const StagePosition& then = previous_->stages[position];
+    if (then.service == now.service() && then.incarnation == now.incarnation()) {
+      return {now.index() > then.index ? now.index() - then.index - 1 : 0, false};
     }
   }
   return {now.index(), true};
 }
 
-}  // namespace
+std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool same_source) const {
+  std::vector<Loss> losses;
+  std::vector<Made> made;
+  for (std::size_t i = 0; i < header.trace().size(); ++i) made.push_back(made_since(header, i));
+  // What a later stage made, the earlier ones must have made too.
+  for (std::size_t i = made.size() - 1; i-- > 0;) {
+    if (made[i].restarted) made[i].count = std::max(made[i].count, made[i + 1].count);
+  }
+  const std::uint64_t first = same_source ? previous_->sequence_number + 1 : 0;
+  const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
+    if (made_of_it >= had) return;
+    losses.push_back({first, header.sequence_number() - 1, had - made_of_it, stage});
+  };
+  // Scans that were taken but never written are the source's own loss.
+  add(header.sequence_number() - first, made[0].count, header.trace()[0].service());
+  for (std::size_t i = 1; i < made.size(); ++i) {
+    add(made[i - 1].count, made[i].count, header.trace()[i].service());
+  }
+  add(made.back().count, 0, "link");
+  return losses;
+}
+
+// The usual case: the next result of every stage.
+bool ScanAccounting::follows(const msg::Header& header) const {
+  return header.sequence_number() == previous_->sequence_number + 1 &&
+         std::equal(header.trace().begin(), header.trace().end(), previous_->stages.begin(),
+                    previous_->stages.end(),
+                    [](const msg::StageTrace& now, const StagePosition& then) {
+                      return now.incarnation() == then.incarnation &&
+                             now.index() == then.index + 1 && now.service() == then.service;
+                    });
+}
+
+void ScanAccounting::remember(const msg::Header& header) {
+  if (!previous_) previous_.emplace();
+  previous_->sequence_number = header.sequence_number();
+  previous_->stages.resize(header.trace().size());
+  for (std::size_t i = 0; i < header.trace().size(); ++i) {
+    const msg::StageTrace& trace = header.trace()[i];
+    previous_->stages[i].service = trace.service();
+    previous_->stages[i].incarnation = trace.incarnation();
+    previous_->stages[i].index = trace.index();
+  }
+}
 
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   std::vector<Loss> losses;
   if (header.trace().empty()) return losses;  // not from a stage of this project
-  if (previous_) {
-    const msg::Header& before = *previous_;
-    const bool same_source =
-        !before.trace().empty() && before.trace()[0].incarnation() == header.trace()[0].incarnation();
-    if (same_source && header.sequence_number() <= before.sequence_number()) {
+  if (!previous_) {
+    first_sequence_ = header.sequence_number();
+  } else if (!follows(header)) {
+    const bool same_source = previous_->stages[0].incarnation == header.trace()[0].incarnation();
+    if (same_source && header.sequence_number() <= previous_->sequence_number) {
       ++duplicates_;
       return losses;
     }
-    std::vector<Made> made;
-    for (std::size_t i = 0; i < header.trace().size(); ++i) made.push_back(made_between(before, header, i));
-    // What a later stage made, the earlier ones must have made too.
-    for (std::size_t i = made.size() - 1; i-- > 0;) {
-      if (made[i].restarted) made[i].count = std::max(made[i].count, made[i + 1].count);
-    }
-    const std::uint64_t first = same_source ? before.sequence_number() + 1 : 0;
-    const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
-      if (made_of_it >= had) return;
-      losses.push_back({first, header.sequence_number() - 1, had - made_of_it, stage});
-    };
-    // Scans that were taken but never written are the source's own loss.
-    add(header.sequence_number() - first, made[0].count, header.trace()[0].service());
-    for (std::size_t i = 1; i < made.size(); ++i) {
-      add(made[i - 1].count, made[i].count, header.trace()[i].service());
-    }
-    add(made.back().count, 0, "link");
-  } else {
-    first_sequence_ = header.sequence_number();
+    losses = losses_before(header, same_source);
+    for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
   }
-  for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
   ++received_;
-  previous_ = header;
+  remember(header);
   return losses;
 }
 
 std::vector<Loss> ScanAccounting::finish(std::uint64_t published) {
-  if (!previous_ || previous_->sequence_number() + 1 >= published) return {};
-  const std::uint64_t first = previous_->sequence_number() + 1;
+  if (!previous_ || previous_->sequence_number + 1 >= published) return {};
+  const std::uint64_t first = previous_->sequence_number + 1;
   const Loss loss{first, published - 1, published - first, "end"};
   lost_by_stage_[loss.stage] += loss.count;
   return {loss};

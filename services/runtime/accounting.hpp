@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <idl/Common.h>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <idl/Common.h>
 
 namespace quoin::runtime {
 
@@ -17,13 +16,13 @@ struct Loss {
   std::uint64_t first_sequence = 0;
   std::uint64_t last_sequence = 0;  ///< included
   std::uint64_t count = 0;          ///< scans of this range that the stage did not deliver
-  std::string stage;                ///< service name; the reader's own input link has the name "link"
+  std::string stage;  ///< service name; the reader's own input link has the name "link"
 };
 
-/// Tells for each scan whether it arrived, and if not, where it was lost, from nothing but the headers
-/// of the messages that did arrive. Every stage numbers what it publishes (StageTrace.index), so the
-/// difference of two headers says how many results each stage made of the scans in between: the first
-/// stage that made fewer than its predecessor lost the others.
+/// Tells for each scan whether it arrived, and if not, where it was lost, from nothing but the
+/// headers of the messages that did arrive. Every stage numbers what it publishes
+/// (StageTrace.index), so the difference of two headers says how many results each stage made of
+/// the scans in between: the first stage that made fewer than its predecessor lost the others.
 ///
 /// Exact as long as the stages live. When one is restarted, scans between its last result that
 /// arrived and its first new one are put to its account.
@@ -40,12 +39,31 @@ class ScanAccounting {
   [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }
   [[nodiscard]] std::uint64_t lost() const;
   /// Lost scans by stage; "link" is the link from the last stage to this reader.
-  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost_by_stage() const { return lost_by_stage_; }
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost_by_stage() const {
+    return lost_by_stage_;
+  }
   /// Number of the first scan received; nothing before that.
   [[nodiscard]] std::optional<std::uint64_t> first_sequence() const { return first_sequence_; }
 
  private:
-  std::optional<msg::Header> previous_;
+  // Where a stage stood at the last message.
+  struct StagePosition {
+    std::string service;
+    std::uint64_t incarnation = 0;
+    std::uint64_t index = 0;
+  };
+  struct Previous {
+    std::uint64_t sequence_number = 0;
+    std::vector<StagePosition> stages;
+  };
+  struct Made;
+
+  [[nodiscard]] bool follows(const msg::Header& header) const;
+  [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
+  [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;
+  void remember(const msg::Header& header);
+
+  std::optional<Previous> previous_;
   std::optional<std::uint64_t> first_sequence_;
   std::uint64_t received_ = 0;
   std::uint64_t duplicates_ = 0;

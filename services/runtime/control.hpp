@@ -3,9 +3,8 @@
 #pragma once
 
 #include <functional>
-#include <thread>
-
 #include <idl/Control.h>
+#include <thread>
 
 #include "services/runtime/reader.hpp"
 #include "services/runtime/service.hpp"
@@ -13,8 +12,8 @@
 
 namespace quoin::runtime {
 
-/// Answers the control requests addressed to one service, one after the other, in a thread of its own:
-/// what takes long (building a method) happens off the data path.
+/// Answers the control requests addressed to one service, one after the other, in a thread of its
+/// own: what takes long (building a method) happens off the data path.
 class ControlServer {
  public:
   /// Fills accepted, detail, method, parameters and first_sequence_number of the reply.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-
 #include <idl/Common.h>
 
 #include "services/runtime/clock.hpp"
@@ -13,8 +12,8 @@
 namespace quoin::runtime {
 
 /// Stamps `trace` (which is part of `message`) and writes the message. With the lossless preset the
-/// write is tried again while slow readers keep the history full, but no longer than three seconds once
-/// the stop is requested; else it never waits. False when the message was not written.
+/// write is tried again while slow readers keep the history full, but no longer than three seconds
+/// once the stop is requested; else it never waits. False when the message was not written.
 template <class T>
 bool deliver(Writer<T>& writer, const T& message, msg::StageTrace& trace, bool lossless,
              const StopSignal& stop) {

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/heartbeat.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <unistd.h>
 #include <utility>
 
 #include "services/runtime/clock.hpp"

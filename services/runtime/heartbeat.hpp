@@ -5,11 +5,10 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <idl/Status.h>
 #include <mutex>
 #include <string>
 #include <thread>
-
-#include <idl/Status.h>
 
 #include "core/evaluation/quantile_histogram.hpp"
 #include "deploy/deployment/deployment.hpp"
@@ -40,7 +39,8 @@ class Heartbeat {
   void set_state(msg::ServiceState state, const std::string& detail = "");
   void set_detail(const std::string& detail);
   void set_method(const std::string& method);
-  /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_ fields.
+  /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_
+  /// fields.
   void set_endpoint_report(std::function<void(msg::ServiceStatus&)> report);
 
   void count_received(std::uint64_t upstream_lost, std::uint64_t link_lost);

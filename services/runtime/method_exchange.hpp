@@ -82,9 +82,9 @@ class MethodExchange {
   [[nodiscard]] ParameterSettings merged(const ParameterSettings& changes) const {
     ParameterSettings result = parameters_;
     for (const ParameterSetting& change : changes) {
-      const auto same = std::find_if(result.begin(), result.end(), [&](const ParameterSetting& setting) {
-        return setting.name == change.name;
-      });
+      const auto same = std::find_if(
+          result.begin(), result.end(),
+          [&](const ParameterSetting& setting) { return setting.name == change.name; });
       if (same == result.end()) {
         result.push_back(change);
       } else {
@@ -94,7 +94,8 @@ class MethodExchange {
     return result;
   }
 
-  void exchange(const std::string& method, const ParameterSettings& parameters, msg::ControlReply& reply) {
+  void exchange(const std::string& method, const ParameterSettings& parameters,
+                msg::ControlReply& reply) {
     Process<In, Out> process = make_(method, parameters);  // throws, and then nothing has changed
     std::unique_lock lock(mutex_);
     next_process_ = std::move(process);

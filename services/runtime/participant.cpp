@@ -37,8 +37,8 @@ rtps::Locator_t loopback_locator() {
   return locator;
 }
 
-// Participants of one process talk through the transport like all others: the short cut inside a process
-// never repeats a sample that a full lossless reader had to reject.
+// Participants of one process talk through the transport like all others: the short cut inside a
+// process never repeats a sample that a full lossless reader had to reject.
 void disable_intraprocess_delivery() {
   eprosima::fastrtps::LibrarySettingsAttributes settings;
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
@@ -62,8 +62,8 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config) {
   builtin.metatrafficUnicastLocatorList.push_back(loopback_locator());
   qos.wire_protocol().default_unicast_locator_list.push_back(loopback_locator());
 
-  // A dead process is noticed after the lease; new ones are announced often at first, because one lost
-  // announcement would otherwise delay the start by a whole period.
+  // A dead process is noticed after the lease; new ones are announced often at first, because one
+  // lost announcement would otherwise delay the start by a whole period.
   auto& discovery = builtin.discovery_config;
   discovery.leaseDuration = eprosima::fastrtps::Duration_t(5, 0);
   discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(1, 0);

@@ -24,7 +24,8 @@ struct Participant::Impl {
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
 
   /// The topic of this name, made at its first use. Throws std::runtime_error.
-  eprosima::fastdds::dds::Topic* topic(const std::string& name, const eprosima::fastdds::dds::TypeSupport& type);
+  eprosima::fastdds::dds::Topic* topic(const std::string& name,
+                                       const eprosima::fastdds::dds::TypeSupport& type);
 };
 
 /// Peers of an endpoint as its listener sees them.

@@ -51,7 +51,8 @@ Qos common_qos(Qos qos, QosPreset preset) {
   const int samples = depth(preset);
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = Duration_t(1, 0);
-  qos.durability().kind = keyed ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.durability().kind =
+      keyed ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind =
       preset == QosPreset::lossless ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = samples;

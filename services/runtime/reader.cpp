@@ -50,7 +50,9 @@ bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds t
   return impl_->match.wait(count, timeout);
 }
 
-std::vector<std::string> ReaderBase::incompatible_qos() const { return impl_->match.incompatible(); }
+std::vector<std::string> ReaderBase::incompatible_qos() const {
+  return impl_->match.incompatible();
+}
 
 bool ReaderBase::take_raw(void* sample) {
   dds::SampleInfo info;
@@ -79,10 +81,10 @@ void WaitSet::add(ReaderBase& reader) {
 bool WaitSet::wait(std::chrono::milliseconds timeout) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
-  const bool active = impl_->wait_set.wait(impl_->active,
-                                           Duration_t(static_cast<std::int32_t>(seconds.count()),
-                                                      static_cast<std::uint32_t>(rest.count()))) ==
-                      ReturnCode_t::RETCODE_OK;
+  const bool active =
+      impl_->wait_set.wait(impl_->active, Duration_t(static_cast<std::int32_t>(seconds.count()),
+                                                     static_cast<std::uint32_t>(rest.count()))) ==
+      ReturnCode_t::RETCODE_OK;
   impl_->woken.set_trigger_value(false);
   return active;
 }

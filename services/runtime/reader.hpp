@@ -36,8 +36,8 @@ class ReaderBase {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads messages of one of the idl types from a topic. Throws std::runtime_error when DDS refuses to
-/// create the entities.
+/// Reads messages of one of the idl types from a topic. Throws std::runtime_error when DDS refuses
+/// to create the entities.
 template <class T>
 class Reader : public ReaderBase {
  public:

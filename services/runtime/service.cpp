@@ -15,15 +15,15 @@ namespace quoin::runtime {
 
 namespace {
 
-const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment, const std::string& name,
-                                          const std::string& kind) {
+const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment,
+                                          const std::string& name, const std::string& kind) {
   std::vector<std::string> candidates;
   for (const deploy::ServiceConfig& service : deployment.services) {
     if (service.name == name && service.kind == kind) return service;
     if (service.kind == kind) candidates.push_back(service.name);
   }
-  throw deploy::DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " + kind +
-                                 suggestion(name, candidates)});
+  throw deploy::DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " +
+                                 kind + suggestion(name, candidates)});
 }
 
 }  // namespace
@@ -47,17 +47,18 @@ bool Service::wait_for_readers(const WriterBase& writer) {
   while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
     if (stop.requested()) return false;
     if (steady_clock::now() > deadline) {
-      spdlog::warn("only {} of {} readers are there after 10 s; going on without the others", writer.matched(),
-                   expected_readers);
+      spdlog::warn("only {} of {} readers are there after 10 s; going on without the others",
+                   writer.matched(), expected_readers);
       break;
     }
   }
   return !stop.requested();
 }
 
-int run_service(int argc, char** argv, const std::string& kind,
-                const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
-                const std::function<int(Service&)>& run) {
+int run_service(
+    int argc, char** argv, const std::string& kind,
+    const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
+    const std::function<int(Service&)>& run) {
   CLI::App app{"Quoin service of kind " + kind + ", as described in a deployment file"};
   std::string deployment_file;
   std::string service_name;
@@ -79,7 +80,8 @@ int run_service(int argc, char** argv, const std::string& kind,
     const deploy::Deployment deployment = deploy::load_deployment(deployment_file);
     const deploy::ServiceConfig& config = find_service(deployment, service_name, kind);
     check(deployment, config);
-    Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers);
+    Service service(stop, deployment, config,
+                    deployment.readers_of(config.name).size() + observers);
     return run(service);
   } catch (const deploy::DeploymentError& error) {
     for (const std::string& message : error.messages()) spdlog::error("{}", message);

@@ -43,8 +43,9 @@ struct Service {
 /// The part of main that all services share: command line (--deployment FILE --service NAME), log,
 /// deployment file, signals. `check` runs before DDS is touched, for errors in the configuration
 /// that only the service can find; `run` does the work and returns the exit code.
-int run_service(int argc, char** argv, const std::string& kind,
-                const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
-                const std::function<int(Service&)>& run);
+int run_service(
+    int argc, char** argv, const std::string& kind,
+    const std::function<void(const deploy::Deployment&, const deploy::ServiceConfig&)>& check,
+    const std::function<int(Service&)>& run);
 
 }  // namespace quoin::runtime

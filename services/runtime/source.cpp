@@ -17,7 +17,9 @@ namespace {
 class PublishingSource final : public Source {
  public:
   PublishingSource(Service& service, Writer<msg::Scan>& writer)
-      : service_(service), writer_(writer), lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
+      : service_(service),
+        writer_(writer),
+        lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
 
   [[nodiscard]] const deploy::ServiceConfig& config() const override { return service_.config; }
   [[nodiscard]] std::filesystem::path base_directory() const override {
@@ -63,7 +65,8 @@ class PublishingSource final : public Source {
 };
 
 int publish_all(Service& service, const std::function<void(Source&)>& body) {
-  Writer<msg::Scan> writer(service.participant, deploy::output_topic(service.deployment, service.config),
+  Writer<msg::Scan> writer(service.participant,
+                           deploy::output_topic(service.deployment, service.config),
                            qos_preset(service.config.qos));
   service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
     status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));

@@ -4,25 +4,24 @@
 
 #include <chrono>
 #include <functional>
+#include <idl/Scan.h>
 #include <memory>
 #include <stdexcept>
 #include <string>
-
-#include <idl/Scan.h>
 
 #include "deploy/deployment/deployment.hpp"
 
 namespace quoin::runtime {
 
-/// Input of a source that became unusable: what has been published stays published, the service ends
-/// as failed with exit code 3 and is not started again.
+/// Input of a source that became unusable: what has been published stays published, the service
+/// ends as failed with exit code 3 and is not started again.
 class SourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the body of a scan source works with. Numbers the scans, stamps the trace, accounts for them
-/// and ends in order on SIGTERM or SIGINT.
+/// What the body of a scan source works with. Numbers the scans, stamps the trace, accounts for
+/// them and ends in order on SIGTERM or SIGINT.
 class Source {
  public:
   virtual ~Source() = default;
@@ -43,15 +42,16 @@ class Source {
   virtual void warn(const std::string& text) = 0;
 };
 
-/// Opens what the source reads from and returns the body that publishes. Exceptions from opening are
-/// start-up errors (exit code 2).
-using SourceFactory = std::function<std::function<void(Source&)>(const deploy::ServiceConfig&,
-                                                                 const std::filesystem::path& base_directory)>;
+/// Opens what the source reads from and returns the body that publishes. Exceptions from opening
+/// are start-up errors (exit code 2).
+using SourceFactory = std::function<std::function<void(Source&)>(
+    const deploy::ServiceConfig&, const std::filesystem::path& base_directory)>;
 
 /// The main function of a scan source: command line, deployment file, participant, waiting for the
 /// readers named in the deployment, heartbeat, orderly end. The body returns when a finite source
 /// has published everything, or when `publish` or `wait_until` says false.
-/// Returns the exit code: 0 finished or stopped, 2 wrong configuration, 3 SourceError, 1 anything else.
+/// Returns the exit code: 0 finished or stopped, 2 wrong configuration, 3 SourceError, 1 anything
+/// else.
 int run_source(int argc, char** argv, const std::string& kind, const SourceFactory& open);
 
 }  // namespace quoin::runtime

@@ -3,11 +3,11 @@
 #include "services/runtime/stage.hpp"
 
 #include <exception>
-
 #include <idl/Corners.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+
 #include <spdlog/spdlog.h>
 
 #include "services/runtime/accounting.hpp"
@@ -34,8 +34,8 @@ class Stage {
         exchange_(service, make) {}
 
   int run() {
-    // The input is opened once the output has its readers: so a whole deployment comes up from its end
-    // to its sources, and the first scan finds everybody listening.
+    // The input is opened once the output has its readers: so a whole deployment comes up from its
+    // end to its sources, and the first scan finds everybody listening.
     if (service_.wait_for_readers(writer_)) {
       const deploy::ServiceConfig& input = service_.deployment.service(service_.config.input);
       Reader<In> reader(service_.participant, deploy::output_topic(service_.deployment, input),
@@ -81,8 +81,8 @@ class Stage {
     const std::uint64_t duplicates = accounting_.duplicates();
     for (const Loss& loss : accounting_.receive(in_.header())) {
       (loss.stage == "link" ? link_lost : upstream_lost) += loss.count;
-      spdlog::warn("{} scans of {}..{} lost by {}", loss.count, loss.first_sequence, loss.last_sequence,
-                   loss.stage);
+      spdlog::warn("{} scans of {}..{} lost by {}", loss.count, loss.first_sequence,
+                   loss.last_sequence, loss.stage);
     }
     if (accounting_.duplicates() != duplicates) return;
     service_.heartbeat.count_received(upstream_lost, link_lost);
@@ -112,8 +112,8 @@ class Stage {
     }
     ++next_index_;
     const auto& first = in_.header().trace();
-    service_.heartbeat.count_published(first.empty() ? received : first.front().published(), received,
-                                       trace.published(), failures);
+    service_.heartbeat.count_published(first.empty() ? received : first.front().published(),
+                                       received, trace.published(), failures);
   }
 
   Service& service_;

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/stop_signal.hpp"
 
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <csignal>
-#include <cstdint>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace quoin::runtime {
@@ -45,7 +44,8 @@ void StopSignal::watch() {
     if ((descriptors[1].revents & POLLIN) != 0) return;
     if ((descriptors[0].revents & POLLIN) != 0) {
       signalfd_siginfo info;
-      if (read(signal_descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info)) request();
+      if (read(signal_descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info))
+        request();
     }
   }
 }

@@ -11,8 +11,8 @@
 
 namespace quoin::runtime {
 
-/// Turns SIGTERM and SIGINT into a flag, a wake-up and a callback. Make one, in main, before any other
-/// thread exists: it blocks the signals for all threads started later.
+/// Turns SIGTERM and SIGINT into a flag, a wake-up and a callback. Make one, in main, before any
+/// other thread exists: it blocks the signals for all threads started later.
 class StopSignal {
  public:
   StopSignal();
@@ -24,7 +24,8 @@ class StopSignal {
   /// As if the signal had come.
   void request();
   /// Called once, from another thread, when the stop is requested; at once if it has been. An empty
-  /// function takes the callback back: when this returns, it no longer runs. Must not call back here.
+  /// function takes the callback back: when this returns, it no longer runs. Must not call back
+  /// here.
   void on_request(std::function<void()> callback);
   /// Waits until `time`; false at once when the stop is requested.
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time);

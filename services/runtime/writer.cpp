@@ -32,8 +32,8 @@ void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
   match.set_matched(status.current_count);
 }
 
-void WriterBase::Impl::on_offered_incompatible_qos(dds::DataWriter*,
-                                                   const dds::OfferedIncompatibleQosStatus& status) {
+void WriterBase::Impl::on_offered_incompatible_qos(
+    dds::DataWriter*, const dds::OfferedIncompatibleQosStatus& status) {
   match.add_incompatible(topic_name, status.last_policy_id);
 }
 
@@ -54,7 +54,9 @@ bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
                         static_cast<std::uint32_t>(rest.count()))) == ReturnCode_t::RETCODE_OK;
 }
 
-std::vector<std::string> WriterBase::incompatible_qos() const { return impl_->match.incompatible(); }
+std::vector<std::string> WriterBase::incompatible_qos() const {
+  return impl_->match.incompatible();
+}
 
 bool WriterBase::write_raw(void* sample) { return impl_->writer->write(sample); }
 

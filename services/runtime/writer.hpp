@@ -39,8 +39,8 @@ class WriterBase {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes messages of one of the idl types to a topic. Throws std::runtime_error when DDS refuses to
-/// create the entities. One thread at a time writes.
+/// Writes messages of one of the idl types to a topic. Throws std::runtime_error when DDS refuses
+/// to create the entities. One thread at a time writes.
 template <class T>
 class Writer : public WriterBase {
  public:

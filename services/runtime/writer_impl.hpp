@@ -13,12 +13,13 @@
 namespace quoin::runtime {
 
 struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
-  Impl(Participant& owner, const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type,
-       QosPreset preset);
+  Impl(Participant& owner, const std::string& topic,
+       const eprosima::fastdds::dds::TypeSupport& type, QosPreset preset);
   ~Impl() override;
 
-  void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
-                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+  void on_publication_matched(
+      eprosima::fastdds::dds::DataWriter*,
+      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
   void on_offered_incompatible_qos(
       eprosima::fastdds::dds::DataWriter*,
       const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override;

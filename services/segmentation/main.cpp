@@ -16,7 +16,8 @@ struct Workspace {
   std::vector<Segment> segments;
 };
 
-runtime::Process<msg::Scan, msg::Segments> make(const std::string& method, const ParameterSettings& parameters) {
+runtime::Process<msg::Scan, msg::Segments> make(const std::string& method,
+                                                const ParameterSettings& parameters) {
   auto work = std::make_shared<Workspace>();
   work->segment = Segmenters::make<Segmenter>(method, parameters);
   return [work](const msg::Scan& scan, msg::Segments& out) -> std::size_t {

@@ -113,16 +113,21 @@ class BareParticipant {
     return made;
   }
   fast_dds::Topic* topic(const std::string& name) {
-    return check(participant_->create_topic(name, "quoin::benchmarks::Bytes", fast_dds::TOPIC_QOS_DEFAULT));
+    return check(
+        participant_->create_topic(name, "quoin::benchmarks::Bytes", fast_dds::TOPIC_QOS_DEFAULT));
   }
-  static eprosima::fastrtps::Duration_t milliseconds(std::uint32_t count) { return {0, count * 1'000'000U}; }
-  // The same limits and timers as the services' presets: both chains keep as much and repeat as soon.
+  static eprosima::fastrtps::Duration_t milliseconds(std::uint32_t count) {
+    return {0, count * 1'000'000U};
+  }
+  // The same limits and timers as the services' presets: both chains keep as much and repeat as
+  // soon.
   template <class Qos>
   static Qos common(Qos qos, bool lossless) {
     qos.reliability().kind = fast_dds::RELIABLE_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = eprosima::fastrtps::Duration_t(1, 0);
     qos.durability().kind = fast_dds::VOLATILE_DURABILITY_QOS;
-    qos.history().kind = lossless ? fast_dds::KEEP_ALL_HISTORY_QOS : fast_dds::KEEP_LAST_HISTORY_QOS;
+    qos.history().kind =
+        lossless ? fast_dds::KEEP_ALL_HISTORY_QOS : fast_dds::KEEP_LAST_HISTORY_QOS;
     qos.history().depth = lossless ? 64 : 32;
     qos.resource_limits().max_instances = 1;
     qos.resource_limits().max_samples = qos.resource_limits().max_samples_per_instance = 64;
@@ -137,13 +142,16 @@ class BareParticipant {
 };
 
 /// Next message, waiting up to `milliseconds`; false when none came.
-inline bool take_bare(fast_dds::DataReader* reader, fast_dds::WaitSet& wait_set, Bytes& bytes, std::uint32_t milliseconds) {
+inline bool take_bare(fast_dds::DataReader* reader, fast_dds::WaitSet& wait_set, Bytes& bytes,
+                      std::uint32_t milliseconds) {
   fast_dds::SampleInfo info;
   fast_dds::ConditionSeq active;
   using eprosima::fastrtps::types::ReturnCode_t;
-  if (reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK && info.valid_data) return true;
-  wait_set.wait(active, eprosima::fastrtps::Duration_t(static_cast<std::int32_t>(milliseconds / 1000),
-                                                       milliseconds % 1000 * 1'000'000U));
+  if (reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK && info.valid_data)
+    return true;
+  wait_set.wait(active,
+                eprosima::fastrtps::Duration_t(static_cast<std::int32_t>(milliseconds / 1000),
+                                               milliseconds % 1000 * 1'000'000U));
   return reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK && info.valid_data;
 }
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-// One link of the bare chain: takes bytes from one topic and writes as many as it is told to another.
-// Without topics it is an idle participant.
+// One link of the bare chain: takes bytes from one topic and writes as many as it is told to
+// another. Without topics it is an idle participant.
 //   bare_forwarder DOMAIN INPUT OUTPUT OUTPUT_BYTES keep_last|lossless
 //   bare_forwarder DOMAIN
 
 #include <csignal>
 #include <cstdlib>
-
 #include <unistd.h>
 
 #include "tests/benchmarks/bare_endpoint.hpp"

@@ -1,27 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-// The three services against a bare chain of three Fast DDS processes that forward as many bytes at each
-// link, both fed and read by this process on the same machine in the same run. Prints one JSON object.
-
-#include <unistd.h>
+// The three services against a bare chain of three Fast DDS processes that forward as many bytes at
+// each link, both fed and read by this process on the same machine in the same run. Prints one JSON
+// object.
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iomanip>
-#include <iostream>
-#include <memory>
-#include <optional>
-#include <thread>
-
-#include <CLI/CLI.hpp>
 #include <idl/Corners.h>
 #include <idl/CornersPubSubTypes.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/simulation/scanner.hpp"
@@ -55,13 +55,14 @@ double resident_mib(pid_t pid) {
 
 /// Twenty different revolutions of a 920-point sensor in the domestic room.
 std::vector<msg::Scan> make_scans() {
-  SimulatedScanner scanner(*built_in_world("domestic_room"),
-                           [] {
-                             ScannerSettings settings;
-                             settings.noise = SensorModel{};
-                             return settings;
-                           }(),
-                           1);
+  SimulatedScanner scanner(
+      *built_in_world("domestic_room"),
+      [] {
+        ScannerSettings settings;
+        settings.noise = SensorModel{};
+        return settings;
+      }(),
+      1);
   std::vector<msg::Scan> scans(20);
   SimulatedScan simulated;
   for (msg::Scan& scan : scans) {
@@ -110,10 +111,11 @@ class ServiceChain {
             "  - {name: walls, kind: segmentation, input: front, method: iepf}\n"
             "  - {name: wctls, kind: line_fitting, input: walls, method: wctls}\n"
             "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n");
-    const auto start = [&](const std::string& program, const std::string& service, const std::string& observers) {
+    const auto start = [&](const std::string& program, const std::string& service,
+                           const std::string& observers) {
       processes_.emplace_back(program,
-                              std::vector<std::string>{"--deployment", file.string(), "--service", service,
-                                                       "--observers", observers},
+                              std::vector<std::string>{"--deployment", file.string(), "--service",
+                                                       service, "--observers", observers},
                               directory.path());
     };
     start("quoin-corner-estimation", "corners", "1");
@@ -165,16 +167,17 @@ struct Sizes {
 
 class BareChain {
  public:
-  BareChain(int domain, bool lossless, const Sizes& sizes, const tests::TemporaryDirectory& directory)
+  BareChain(int domain, bool lossless, const Sizes& sizes,
+            const tests::TemporaryDirectory& directory)
       : participant_(domain), size_(sizes.scan) {
     const std::string mode = lossless ? "lossless" : "keep_last";
     const std::string prefix = "bare_" + std::to_string(getpid()) + mode + "_";
     const auto start = [&](int link, std::size_t size) {
-      processes_.emplace_back("bare_forwarder",
-                              std::vector<std::string>{std::to_string(domain), prefix + std::to_string(link),
-                                                       prefix + std::to_string(link + 1),
-                                                       std::to_string(size), mode},
-                              directory.path());
+      processes_.emplace_back(
+          "bare_forwarder",
+          std::vector<std::string>{std::to_string(domain), prefix + std::to_string(link),
+                                   prefix + std::to_string(link + 1), std::to_string(size), mode},
+          directory.path());
     };
     start(0, sizes.segments);
     start(1, sizes.lines);
@@ -201,7 +204,8 @@ class BareChain {
   }
 
   std::optional<double> receive(std::chrono::milliseconds timeout) {
-    if (!take_bare(reader_, wait_set_, received_, static_cast<std::uint32_t>(timeout.count()))) return std::nullopt;
+    if (!take_bare(reader_, wait_set_, received_, static_cast<std::uint32_t>(timeout.count())))
+      return std::nullopt;
     std::int64_t sent = 0;
     std::memcpy(&sent, received_.data(), sizeof sent);
     return static_cast<double>(runtime::now_ns() - sent) * 1e-9;
@@ -249,7 +253,8 @@ Sizes measure_sizes(ServiceChain& chain, int domain) {
   runtime::Participant participant({domain, "sizes"});
   runtime::Reader<msg::Segments> segments(participant, chain.name_space() + "/walls/segments",
                                           runtime::QosPreset::feature);
-  runtime::Reader<msg::Lines> lines(participant, chain.name_space() + "/wctls/lines", runtime::QosPreset::feature);
+  runtime::Reader<msg::Lines> lines(participant, chain.name_space() + "/wctls/lines",
+                                    runtime::QosPreset::feature);
   if (!segments.wait_for_writers(1, 10s) || !lines.wait_for_writers(1, 10s)) {
     throw std::runtime_error("the services do not write their topics");
   }
@@ -260,18 +265,23 @@ Sizes measure_sizes(ServiceChain& chain, int domain) {
   for (int i = 0; i < 100 && !(has_segments && has_lines); ++i) {
     chain.send();
     (void)chain.receive(2000ms);
-    tests::eventually([&] {
-      has_segments = has_segments || segments.take(a_segments);
-      has_lines = has_lines || lines.take(a_lines);
-      return has_segments && has_lines;
-    }, 200ms);
+    tests::eventually(
+        [&] {
+          has_segments = has_segments || segments.take(a_segments);
+          has_lines = has_lines || lines.take(a_lines);
+          return has_segments && has_lines;
+        },
+        200ms);
   }
   if (!has_segments || !has_lines) throw std::runtime_error("could not read the services' topics");
-  return {msg::Scan::getCdrSerializedSize(chain.scan()), msg::Segments::getCdrSerializedSize(a_segments),
-          msg::Lines::getCdrSerializedSize(a_lines), msg::Corners::getCdrSerializedSize(chain.last())};
+  return {msg::Scan::getCdrSerializedSize(chain.scan()),
+          msg::Segments::getCdrSerializedSize(a_segments),
+          msg::Lines::getCdrSerializedSize(a_lines),
+          msg::Corners::getCdrSerializedSize(chain.last())};
 }
 
-void measure_latency(ServiceChain& services, BareChain& bare, int messages, nlohmann::ordered_json& figures) {
+void measure_latency(ServiceChain& services, BareChain& bare, int messages,
+                     nlohmann::ordered_json& figures) {
   ChainResult ours;
   ChainResult theirs;
   auto next = steady_clock::now();
@@ -289,7 +299,8 @@ void measure_latency(ServiceChain& services, BareChain& bare, int messages, nloh
   add("chain", ours);
   add("bare", theirs);
   figures["chain_p50_over_bare"] = quantile(ours.latencies, 0.5) / quantile(theirs.latencies, 0.5);
-  figures["chain_p99_over_bare"] = quantile(ours.latencies, 0.99) / quantile(theirs.latencies, 0.99);
+  figures["chain_p99_over_bare"] =
+      quantile(ours.latencies, 0.99) / quantile(theirs.latencies, 0.99);
 }
 
 std::string processor() {
@@ -297,7 +308,8 @@ std::string processor() {
   std::string line;
   while (std::getline(file, line)) {
     if (line.rfind("model name", 0) == 0) {
-      return line.substr(line.find(':') + 2) + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores";
+      return line.substr(line.find(':') + 2) + ", " +
+             std::to_string(std::thread::hardware_concurrency()) + " cores";
     }
   }
   return "unknown";
@@ -333,7 +345,8 @@ void print(const nlohmann::ordered_json& figures, bool json) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Latency, rate and memory of the three services over a bare Fast DDS chain; prints JSON"};
+  CLI::App app{
+      "Latency, rate and memory of the three services over a bare Fast DDS chain; prints JSON"};
   int domain = 17;
   int messages = 300;
   std::uint64_t flood_messages = 4000;
@@ -341,7 +354,8 @@ int main(int argc, char** argv) {
   app.add_option("--messages", messages, "Messages for the latency, at 10 Hz through each chain");
   std::string extraction_file;
   std::string format = "json";
-  app.add_option("--extraction", extraction_file, "JSON file written by extraction_benchmark, merged into the figures");
+  app.add_option("--extraction", extraction_file,
+                 "JSON file written by extraction_benchmark, merged into the figures");
   app.add_option("--format", format, "json or table")->check(CLI::IsMember({"json", "table"}));
   app.add_option("--flood", flood_messages, "Messages for the rate");
   CLI11_PARSE(app, argc, argv);
@@ -359,7 +373,8 @@ int main(int argc, char** argv) {
       std::cerr << "latency: " << messages << " messages through each chain at 10 Hz\n";
       measure_latency(services, bare, messages, figures);
       double worst = 0.0;
-      for (const tests::Process& process : services.processes()) worst = std::max(worst, resident_mib(process.pid()));
+      for (const tests::Process& process : services.processes())
+        worst = std::max(worst, resident_mib(process.pid()));
       figures["service_rss_mib"] = worst;
       figures["idle_participant_rss_mib"] = resident_mib(idle.pid());
       figures["service_rss_over_idle_mib"] = worst - resident_mib(idle.pid());
@@ -383,7 +398,10 @@ int main(int argc, char** argv) {
       figures["rate_lost"] = lost;
       figures["chain_rate_over_bare"] = quantile(ours, 0.5) / quantile(theirs, 0.5);
     }
-    figures["message_bytes"] = {{"scan", sizes.scan}, {"segments", sizes.segments}, {"lines", sizes.lines}, {"corners", sizes.corners}};
+    figures["message_bytes"] = {{"scan", sizes.scan},
+                                {"segments", sizes.segments},
+                                {"lines", sizes.lines},
+                                {"corners", sizes.corners}};
     print(figures, format == "json");
   } catch (const std::exception& error) {
     std::cerr << "chain_benchmark: " << error.what() << '\n';

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <zlib.h>
-
 #include <csignal>
+#include <idl/Lines.h>
+#include <idl/Scan.h>
+#include <idl/Segments.h>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <idl/Lines.h>
-#include <idl/Scan.h>
-#include <idl/Segments.h>
+#include <zlib.h>
 
 #include "services/runtime/clock.hpp"
 #include "services/runtime/writer.hpp"
@@ -77,7 +76,8 @@ TEST(BadInput, StrangeScansGiveEmptyResultsThatAreCounted) {
   runtime::Participant participant(deployment.participant("test"));
   CornerRecorder recorder(participant, deployment, "corners");
   StatusRecorder status(participant, deployment);
-  runtime::Writer<msg::Scan> writer(participant, deployment.topic("front"), runtime::QosPreset::sensor);
+  runtime::Writer<msg::Scan> writer(participant, deployment.topic("front"),
+                                    runtime::QosPreset::sensor);
   const Process corners = deployment.start("corners", 1);
   const Process wctls = deployment.start("wctls");
   const Process walls = deployment.start("walls");
@@ -89,7 +89,8 @@ TEST(BadInput, StrangeScansGiveEmptyResultsThatAreCounted) {
     EXPECT_TRUE(recorder.messages().back().corners().empty()) << i;
   }
   EXPECT_EQ(recorder.accounting().lost(), 0U);
-  EXPECT_TRUE(status.wait_for("walls", [&](const auto& s) { return s.failures() == scans.size(); }));
+  EXPECT_TRUE(
+      status.wait_for("walls", [&](const auto& s) { return s.failures() == scans.size(); }));
   EXPECT_EQ(status.latest("walls").lost(), 0U);
 }
 
@@ -98,7 +99,8 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
   runtime::Participant participant(deployment.participant("test"));
   CornerRecorder recorder(participant, deployment, "corners");
   StatusRecorder status(participant, deployment);
-  runtime::Writer<msg::Segments> writer(participant, deployment.topic("walls"), runtime::QosPreset::feature);
+  runtime::Writer<msg::Segments> writer(participant, deployment.topic("walls"),
+                                        runtime::QosPreset::feature);
   const Process corners = deployment.start("corners", 1);
   const Process wctls = deployment.start("wctls");
   ASSERT_TRUE(writer.wait_for_readers(1, 20s));
@@ -113,7 +115,8 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
   }
   ASSERT_TRUE(recorder.wait_for(2));
   EXPECT_EQ(recorder.messages()[1].header().sequence_number(), 2U);
-  EXPECT_THAT(recorder.accounting().lost_by_stage(), testing::ElementsAre(testing::Pair("wctls", 1)));
+  EXPECT_THAT(recorder.accounting().lost_by_stage(),
+              testing::ElementsAre(testing::Pair("wctls", 1)));
   EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));
   EXPECT_EQ(status.latest("wctls").published(), 2U);
   EXPECT_EQ(status.latest("wctls").lost(), 1U);
@@ -137,7 +140,8 @@ std::string replay_chain(const std::filesystem::path& file) {
 
 TEST(BadInput, GoodScansBeforeAMalformedLineAreStillPublished) {
   const tests::TemporaryDirectory folder;
-  const auto log = folder.write("walls.log", carmen_line(180) + carmen_line(180) + "FLASER 180 1.0 2.0 oops\n");
+  const auto log =
+      folder.write("walls.log", carmen_line(180) + carmen_line(180) + "FLASER 180 1.0 2.0 oops\n");
   const TestDeployment deployment(replay_chain(log), "qos: lossless\n");
   runtime::Participant participant(deployment.participant("test"));
   CornerRecorder recorder(participant, deployment, "corners");
@@ -160,18 +164,22 @@ TEST(BadInput, AMissingScanFileStopsTheStart) {
 
 TEST(BadInput, AMalformedDeploymentStartsNothing) {
   const tests::TemporaryDirectory folder;
-  const auto file = folder.write("broken.yaml", "version: 1\nservices:\n  - {name: front, kind: lidar}\n");
+  const auto file =
+      folder.write("broken.yaml", "version: 1\nservices:\n  - {name: front, kind: lidar}\n");
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"check", file.string()}, {"up", file.string(), "--duration", "1"}}) {
+       {std::vector<std::string>{"check", file.string()},
+        {"up", file.string(), "--duration", "1"}}) {
     Process quoin("quoin", arguments, folder.path());
     EXPECT_EQ(quoin.wait(20s), 2) << arguments[0];
-    EXPECT_THAT(quoin.errors(), HasSubstr(file.string() + ":3:25: unknown kind 'lidar'")) << arguments[0];
+    EXPECT_THAT(quoin.errors(), HasSubstr(file.string() + ":3:25: unknown kind 'lidar'"))
+        << arguments[0];
   }
 }
 
 TEST(BadInput, AServiceRefusesAWrongCommandLine) {
   const TestDeployment deployment(chain);
-  Process unknown("quoin-line-fitting", {"--deployment", deployment.file().string(), "--service", "wclts"},
+  Process unknown("quoin-line-fitting",
+                  {"--deployment", deployment.file().string(), "--service", "wclts"},
                   deployment.directory().path());
   EXPECT_EQ(unknown.wait(20s), 2);
   EXPECT_THAT(unknown.errors(), HasSubstr("did you mean 'wctls'?"));

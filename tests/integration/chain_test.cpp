@@ -34,7 +34,8 @@ const char* const three_fitters = R"(
 /// Squared Mahalanobis distance from a corner to the nearest true one.
 double nearest_truth(const msg::Corner& corner, const std::vector<Eigen::Vector2d>& truth) {
   Eigen::Matrix2d covariance;
-  covariance << corner.covariance_xx(), corner.covariance_xy(), corner.covariance_xy(), corner.covariance_yy();
+  covariance << corner.covariance_xx(), corner.covariance_xy(), corner.covariance_xy(),
+      corner.covariance_yy();
   const Eigen::Matrix2d information = covariance.inverse();
   double nearest = INFINITY;
   for (const Eigen::Vector2d& position : truth) {
@@ -68,10 +69,12 @@ TEST(Chain, DeliversAll200ScansThroughThreeFittersWithTrueCorners) {
     processes.push_back(deployment.start(service.name, last ? 1 : 0));
   }
   for (auto& recorder : recorders) {
-    EXPECT_TRUE(tests::eventually([&] {
-      for (auto& each : recorders) each->poll();
-      return recorder->messages().size() >= 200;
-    }, 60s));
+    EXPECT_TRUE(tests::eventually(
+        [&] {
+          for (auto& each : recorders) each->poll();
+          return recorder->messages().size() >= 200;
+        },
+        60s));
   }
 
   const auto truth = true_corners("domestic_room");
@@ -159,22 +162,26 @@ TEST(Chain, ALateReaderGetsEveryScanFromThenOn) {
 }
 
 TEST(Chain, ALateFitterJoinsTheRunningChain) {
-  const TestDeployment deployment(std::string(one_fitter) +
-                                  "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n"
-                                  "  - {name: utls_corners, kind: corner_estimation, input: utls}\n");
+  const TestDeployment deployment(
+      std::string(one_fitter) +
+      "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n"
+      "  - {name: utls_corners, kind: corner_estimation, input: utls}\n");
   runtime::Participant participant(deployment.participant("test"));
   CornerRecorder first(participant, deployment, "corners");
   CornerRecorder second(participant, deployment, "utls_corners");
   std::vector<Process> processes;
-  for (const char* name : {"front", "walls", "wctls", "corners"}) processes.push_back(deployment.start(name));
+  for (const char* name : {"front", "walls", "wctls", "corners"})
+    processes.push_back(deployment.start(name));
   // walls waits for both fitters, but not for ever.
   ASSERT_TRUE(first.wait_for(20, 40s));
   processes.push_back(deployment.start("utls"));
   processes.push_back(deployment.start("utls_corners"));
-  ASSERT_TRUE(tests::eventually([&] {
-    first.poll();
-    return second.poll() >= 50;
-  }, 40s));
+  ASSERT_TRUE(tests::eventually(
+      [&] {
+        first.poll();
+        return second.poll() >= 50;
+      },
+      40s));
   EXPECT_GT(*second.accounting().first_sequence(), 0U);
   EXPECT_EQ(second.accounting().lost(), 0U);
   EXPECT_EQ(first.accounting().lost(), 0U);

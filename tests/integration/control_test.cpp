@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <idl/Control.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <idl/Control.h>
 
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
@@ -26,7 +27,8 @@ class Control : public testing::Test {
                   runtime::QosPreset::control),
         replies_(participant_, deploy::control_reply_topic(deployment_.deployment().name_space),
                  runtime::QosPreset::control) {
-    for (const auto& service : deployment_.deployment().services) processes_.push_back(deployment_.start(service.name));
+    for (const auto& service : deployment_.deployment().services)
+      processes_.push_back(deployment_.start(service.name));
     EXPECT_TRUE(recorder_.wait_for(5));
     EXPECT_TRUE(requests_.wait_for_readers(3, 20s));
     EXPECT_TRUE(replies_.wait_for_writers(3, 20s));
@@ -47,7 +49,8 @@ class Control : public testing::Test {
     }
     EXPECT_TRUE(requests_.write(request));
     msg::ControlReply reply;
-    EXPECT_TRUE(tests::eventually([&] { return replies_.take(reply) && reply.request() == number_; }));
+    EXPECT_TRUE(
+        tests::eventually([&] { return replies_.take(reply) && reply.request() == number_; }));
     return reply;
   }
 
@@ -66,7 +69,8 @@ class Control : public testing::Test {
 };
 
 TEST_F(Control, AMethodIsExchangedBetweenTwoScans) {
-  const msg::ControlReply reply = ask(msg::ControlAction::CONTROL_SWAP_METHOD, "utls", {{"covariance", "as_published"}});
+  const msg::ControlReply reply =
+      ask(msg::ControlAction::CONTROL_SWAP_METHOD, "utls", {{"covariance", "as_published"}});
   ASSERT_TRUE(reply.accepted()) << reply.detail();
   EXPECT_EQ(reply.method(), "utls");
   ASSERT_TRUE(recorder_.wait_for(recorder_.poll() + 10));
@@ -83,7 +87,8 @@ TEST_F(Control, ARefusedRequestChangesNothing) {
   const msg::ControlReply unknown = ask(msg::ControlAction::CONTROL_SWAP_METHOD, "wclts", {});
   EXPECT_FALSE(unknown.accepted());
   EXPECT_THAT(unknown.detail(), HasSubstr("did you mean 'wctls'?"));
-  const msg::ControlReply wrong = ask(msg::ControlAction::CONTROL_SET_PARAMETERS, "", {{"covariance", "guessed"}});
+  const msg::ControlReply wrong =
+      ask(msg::ControlAction::CONTROL_SET_PARAMETERS, "", {{"covariance", "guessed"}});
   EXPECT_FALSE(wrong.accepted());
   const msg::ControlReply now = ask(msg::ControlAction::CONTROL_DESCRIBE, "", {});
   EXPECT_TRUE(now.accepted());

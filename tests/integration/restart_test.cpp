@@ -41,17 +41,20 @@ TEST(Restart, AKilledStageThatComesBackIsCaughtUpWithAndItsLossesAreItsOwn) {
 
   front.signal(SIGTERM);
   ASSERT_EQ(front.wait(10s), 0) << front.errors();
-  ASSERT_TRUE(status.wait_for("front", [](const auto& s) { return s.state() == msg::ServiceState::STATE_STOPPED; }));
+  ASSERT_TRUE(status.wait_for(
+      "front", [](const auto& s) { return s.state() == msg::ServiceState::STATE_STOPPED; }));
   const std::uint64_t published = status.latest("front").published();
   ASSERT_TRUE(recorder.wait_for(1));
   ASSERT_TRUE(tests::eventually([&] {
     recorder.poll();
     return recorder.messages().back().header().sequence_number() + 1 == published;
   }));
-  // Every scan is delivered or lost, and the lost ones are on the account of the stage that was killed.
+  // Every scan is delivered or lost, and the lost ones are on the account of the stage that was
+  // killed.
   EXPECT_EQ(recorder.accounting().received() + recorder.accounting().lost(), published);
   EXPECT_GT(recorder.accounting().lost(), 0U);
-  EXPECT_THAT(recorder.accounting().lost_by_stage(), testing::ElementsAre(testing::Pair("walls", testing::Gt(0U))));
+  EXPECT_THAT(recorder.accounting().lost_by_stage(),
+              testing::ElementsAre(testing::Pair("walls", testing::Gt(0U))));
   EXPECT_EQ(recorder.accounting().duplicates(), 0U);
 }
 

@@ -38,7 +38,8 @@ std::set<pid_t> processes_naming(const std::string& text) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     std::ifstream file(entry.path() / "cmdline");
-    const std::string command((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::string command((std::istreambuf_iterator<char>(file)),
+                              std::istreambuf_iterator<char>());
     if (command.find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
   }
   return found;
@@ -86,7 +87,8 @@ TEST(Up, EndsAfterItsDuration) {
   const json result = json::parse(up.output());
   const auto published = result["scans_published"].get<int>();
   EXPECT_GT(published, 0);
-  EXPECT_EQ(result["corners"]["corners"]["scans_delivered"], published) << "what was in flight has arrived";
+  EXPECT_EQ(result["corners"]["corners"]["scans_delivered"], published)
+      << "what was in flight has arrived";
   EXPECT_EQ(result["corners"]["corners"]["scans_lost"], 0);
 }
 
@@ -132,7 +134,8 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   const json result = json::parse(up.output());
   EXPECT_EQ(result["services"]["walls"]["restarts"], 1);
   const json& corners = result["corners"]["corners"];
-  EXPECT_EQ(corners["scans_delivered"].get<int>() + corners["scans_lost"].get<int>(), corners["scans_expected"].get<int>());
+  EXPECT_EQ(corners["scans_delivered"].get<int>() + corners["scans_lost"].get<int>(),
+            corners["scans_expected"].get<int>());
   EXPECT_GT(corners["lost_by_stage"]["walls"], 0);
 }
 
@@ -169,7 +172,8 @@ TEST(Echo, PrintsTheMessagesOfAService) {
 TEST(Draw, MakesAPictureOfARunningDeployment) {
   const TestDeployment deployment(chain("rate_hz: 50"));
   const auto picture = deployment.directory().path() / "scan.svg";
-  Process draw = deployment.quoin({"draw", "FILE", "--service", "corners", "-o", picture.string(), "--run"});
+  Process draw =
+      deployment.quoin({"draw", "FILE", "--service", "corners", "-o", picture.string(), "--run"});
   ASSERT_EQ(draw.wait(60s), 0) << draw.errors();
   std::ifstream file(picture);
   const std::string svg((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

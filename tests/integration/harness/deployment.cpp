@@ -9,14 +9,15 @@ namespace quoin::tests {
 
 TestDeployment::TestDeployment(const std::string& services, const std::string& head)
     : file_(directory_.write("deployment.yaml", "version: 1\nnamespace: " + test_namespace() +
-                                                    "\ndomain: " + std::to_string(test_domain()) + "\n" +
-                                                    head + "services:\n" + services)),
+                                                    "\ndomain: " + std::to_string(test_domain()) +
+                                                    "\n" + head + "services:\n" + services)),
       deployment_(deploy::load_deployment(file_)) {}
 
 Process TestDeployment::start(const std::string& service, int observers) const {
   const deploy::KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);
   return Process(kind->program,
-                 {"--deployment", file_.string(), "--service", service, "--observers", std::to_string(observers)},
+                 {"--deployment", file_.string(), "--service", service, "--observers",
+                  std::to_string(observers)},
                  directory_.path());
 }
 
@@ -46,7 +47,8 @@ bool CornerRecorder::wait_for(std::size_t count, std::chrono::milliseconds timeo
 }
 
 StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)
-    : reader_(participant, deploy::status_topic(deployment.deployment().name_space), runtime::QosPreset::state) {}
+    : reader_(participant, deploy::status_topic(deployment.deployment().name_space),
+              runtime::QosPreset::state) {}
 
 void StatusRecorder::poll() {
   msg::ServiceStatus status;

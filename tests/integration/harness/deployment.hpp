@@ -4,12 +4,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <idl/Corners.h>
+#include <idl/Status.h>
 #include <map>
 #include <string>
 #include <vector>
-
-#include <idl/Corners.h>
-#include <idl/Status.h>
 
 #include "deploy/deployment/deployment.hpp"
 #include "services/runtime/accounting.hpp"
@@ -49,7 +48,8 @@ class TestDeployment {
 /// All corners of one service, as they come.
 class CornerRecorder {
  public:
-  CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment, const std::string& service);
+  CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
+                 const std::string& service);
 
   /// Takes what is there; returns the number of messages so far.
   std::size_t poll();
@@ -81,7 +81,9 @@ class StatusRecorder {
         },
         timeout);
   }
-  [[nodiscard]] const msg::ServiceStatus& latest(const std::string& service) { return latest_[service]; }
+  [[nodiscard]] const msg::ServiceStatus& latest(const std::string& service) {
+    return latest_[service];
+  }
 
  private:
   void poll();

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/harness/process.hpp"
 
+#include <atomic>
+#include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <signal.h>
+#include <sstream>
+#include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace quoin::tests {
@@ -91,7 +90,8 @@ std::string Process::errors() const { return read_file(error_file_); }
 
 TemporaryDirectory::TemporaryDirectory() {
   std::string name = (std::filesystem::temp_directory_path() / "quoin_test_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary directory");
+  if (mkdtemp(name.data()) == nullptr)
+    throw std::runtime_error("cannot make a temporary directory");
   path_ = name;
 }
 
@@ -100,7 +100,8 @@ TemporaryDirectory::~TemporaryDirectory() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::filesystem::path TemporaryDirectory::write(const std::string& name, const std::string& text) const {
+std::filesystem::path TemporaryDirectory::write(const std::string& name,
+                                                const std::string& text) const {
   std::ofstream(path_ / name) << text;
   return path_ / name;
 }

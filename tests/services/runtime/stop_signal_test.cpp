@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/stop_signal.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <idl/Scan.h>
+#include <idl/Status.h>
 #include <numeric>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <idl/Scan.h>
-#include <idl/Status.h>
 
 #include "services/runtime/participant.hpp"
 #include "services/runtime/qos.hpp"
@@ -144,8 +144,8 @@ TEST(Topics, AQosMismatchIsToldToBothSides) {
   Participant sender({test_domain(), "sender"});
   Participant receiver({test_domain(), "receiver"});
   const std::string topic = test_namespace() + "/front/scan";
-  Writer<msg::Scan> writer(sender, topic, QosPreset::sensor);    // volatile
-  Reader<msg::Scan> reader(receiver, topic, QosPreset::state);   // asks for transient-local
+  Writer<msg::Scan> writer(sender, topic, QosPreset::sensor);   // volatile
+  Reader<msg::Scan> reader(receiver, topic, QosPreset::state);  // asks for transient-local
   const auto deadline = std::chrono::steady_clock::now() + 10s;
   while ((writer.incompatible_qos().empty() || reader.incompatible_qos().empty()) &&
          std::chrono::steady_clock::now() < deadline) {
