@@ -83,7 +83,9 @@ std::set<std::size_t> find_cycles(const std::vector<DraftService>& drafts, const
       if (next->second == start) {
         in_cycle.insert(path.begin(), path.end());
         if (path.size() == 1) {
-          problems.add(drafts[start].input_at, "'" + drafts[start].config.name + "' reads itself");
+          problems.add(drafts[start].input_at,
+                       "'" + drafts[start].config.name +
+                           "' reads itself; name another service as its input");
           break;
         }
         std::string text = "cycle: '" + drafts[start].config.name + "'";

@@ -3,6 +3,9 @@
 #include "deploy/deployment/yaml_entries.hpp"
 
 #include <map>
+#include <sstream>
+
+#include <yaml-cpp/eventhandler.h>
 
 namespace quoin::deploy {
 
@@ -18,19 +21,68 @@ std::string what_is(const YAML::Node& node) {
   return "nothing";
 }
 
+namespace {
+
+/// The usual mistake behind a syntax error on line `number`; "" when it is none of those known.
+std::string hint(const std::string& text, int number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; i < number; ++i) std::getline(lines, line);
+  if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) {
+    return "; indent with spaces, not with tabs";
+  }
+  if (line.find("${") != std::string::npos && line.find('{') < line.find("${")) {
+    return "; inside { } put values with ${NAME} in quotes";
+  }
+  return "";
+}
+
+/// Notes where documents start, and nothing else.
+class DocumentStarts final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { starts.push_back(position_of(mark)); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  std::vector<Position> starts;
+};
+
+/// The first two at most: yaml-cpp makes endless documents of stray text such as a comma at the
+/// start, and its LoadAll takes all memory there is.
+std::vector<Position> document_starts(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts handler;
+  for (int i = 0; i < 2 && parser.HandleNextDocument(handler); ++i) {
+  }
+  return handler.starts;
+}
+
+}  // namespace
+
 std::optional<YAML::Node> load_yaml(const std::string& text, Problems& problems) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      problems.add(position_of(documents[1].Mark()),
-                   "a second document; a file describes one deployment");
-    } else if (documents.empty() || documents.front().IsNull()) {
+    const std::vector<Position> starts = document_starts(text);
+    const YAML::Node document = YAML::Load(text);
+    if (starts.size() > 1) {
+      problems.add(starts[1], "a second document or stray text; a file describes one deployment");
+    } else if (document.IsNull()) {
       problems.add({1, 1}, "the file is empty; see deploy/examples for how one looks");
     } else {
-      return documents.front();
+      return document;
     }
   } catch (const YAML::Exception& error) {
-    problems.add(position_of(error.mark), "not valid YAML: " + error.msg);
+    const Position at = position_of(error.mark);
+    problems.add(at, "not valid YAML: " + error.msg + hint(text, at.line));
   } catch (const std::exception& error) {
     problems.add({1, 1}, std::string("not valid YAML: ") + error.what());
   }

@@ -51,10 +51,11 @@ double round_step(double value) {
 /// Smallest of 1, 2 and 5 times a power of ten [m] that keeps grid lines 50 pixels apart.
 double grid_step(double pixels_per_metre) {
   const double least = 50.0 / pixels_per_metre;
-  const double below = round_step(least);
-  if (below >= least * (1.0 - 1e-9)) return below;
-  const double power = std::pow(10.0, std::floor(std::log10(below * (1.0 + 1e-9))));
-  return below > 1.5 * power && below < 3.0 * power ? 2.5 * below : 2.0 * below;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
+  }
+  return 10.0 * power;
 }
 
 /// From the sensor's frame to the picture.
@@ -72,8 +73,8 @@ struct Projection {
     for (const DrawnCorner& corner : drawing.corners) {
       if (drawing.points.empty()) box.include(corner.position);
     }
-    const double extent = std::max({box.right - box.left, smallest_extent});
-    const double border = 0.04 * std::max(extent, box.top - box.bottom);
+    const double border =
+        0.04 * std::max({box.right - box.left, box.top - box.bottom, smallest_extent});
     box.left -= border;
     box.right = std::max(box.right, box.left + smallest_extent) + border;
     box.bottom -= border;

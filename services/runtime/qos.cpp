@@ -26,7 +26,7 @@ namespace {
 // Services of one deployment that share the status topic.
 constexpr int max_instances = 512;
 // Samples a lossless endpoint holds before the writer has to wait.
-constexpr int lossless_samples = 64;
+constexpr int lossless_samples = 256;
 
 int depth(QosPreset preset) {
   switch (preset) {

@@ -106,7 +106,10 @@ int run_source(int argc, char** argv, const std::string& kind, const SourceFacto
         try {
           body = open(config, deployment.file.parent_path());
         } catch (const std::exception& error) {
-          throw deploy::DeploymentError({error.what()});
+          throw deploy::DeploymentError({deployment.file.string() + ":" +
+                                         std::to_string(config.position.line) + ":" +
+                                         std::to_string(config.position.column) + ": service '" +
+                                         config.name + "': " + error.what()});
         }
       },
       [&](Service& service) { return publish_all(service, body); });

@@ -128,9 +128,9 @@ class BareParticipant {
     qos.durability().kind = fast_dds::VOLATILE_DURABILITY_QOS;
     qos.history().kind =
         lossless ? fast_dds::KEEP_ALL_HISTORY_QOS : fast_dds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = lossless ? 64 : 32;
+    qos.history().depth = lossless ? 256 : 32;
     qos.resource_limits().max_instances = 1;
-    qos.resource_limits().max_samples = qos.resource_limits().max_samples_per_instance = 64;
+    qos.resource_limits().max_samples = qos.resource_limits().max_samples_per_instance = 256;
     qos.resource_limits().allocated_samples = 1;
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     return qos;

@@ -349,7 +349,7 @@ int main(int argc, char** argv) {
       "Latency, rate and memory of the three services over a bare Fast DDS chain; prints JSON"};
   int domain = 17;
   int messages = 300;
-  std::uint64_t flood_messages = 4000;
+  std::uint64_t flood_messages = 20000;
   app.add_option("--domain", domain, "DDS domain");
   app.add_option("--messages", messages, "Messages for the latency, at 10 Hz through each chain");
   std::string extraction_file;

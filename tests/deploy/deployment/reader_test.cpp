@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <stdlib.h>
+
+#include <gmock/gmock.h>
+
+#include "deploy/deployment/deployment.hpp"
+
+namespace quoin::deploy {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names_of(const Deployment& deployment) {
+  std::vector<std::string> names;
+  for (const ServiceConfig& service : deployment.services) names.push_back(service.name);
+  return names;
+}
+
+constexpr auto chain = R"(version: 1
+services:
+  - {name: corners, kind: corner_estimation, input: lines}
+  - {name: lines, kind: line_fitting, input: walls}
+  - {name: front, kind: simulated}
+  - {name: walls, kind: segmentation, input: front}
+  - {name: rear, kind: simulated}
+)";
+
+TEST(Reader, FillsInDefaults) {
+  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  EXPECT_EQ(deployment.file, "robot.yaml");
+  EXPECT_EQ(deployment.name_space, "quoin");
+  EXPECT_EQ(deployment.domain, 0);
+  const ServiceConfig& lines = deployment.service("lines");
+  EXPECT_EQ(lines.kind, "line_fitting");
+  EXPECT_EQ(lines.input, "walls");
+  EXPECT_FALSE(lines.method.empty());
+  EXPECT_EQ(lines.qos, "feature");
+  EXPECT_EQ(lines.restart, RestartPolicy::always);
+  EXPECT_THAT(lines.parameters, testing::IsEmpty());
+  EXPECT_EQ(lines.position.line, 4);
+  EXPECT_EQ(lines.position.column, 5);
+  EXPECT_EQ(deployment.service("front").qos, "sensor");
+  EXPECT_EQ(deployment.service("front").method, "");
+}
+
+TEST(Reader, PutsInputsFirstAndElseKeepsTheOrder) {
+  EXPECT_THAT(names_of(parse_deployment(chain, "robot.yaml")),
+              ElementsAre("front", "walls", "lines", "corners", "rear"));
+}
+
+TEST(Reader, ReadsEverythingThatCanBeWritten) {
+  const Deployment deployment = parse_deployment(R"(
+version: 1
+namespace: fleet/robot_1
+domain: 232
+qos: lossless
+services:
+  - name: front
+    kind: simulated
+    qos: sensor
+    restart: never
+    parameters:
+      environment: domestic_room
+      rate_hz: 20 Hz
+      range_stddev: 10 mm
+      seed: "3"
+  - {name: walls, kind: segmentation, input: front, method: iepf}
+)",
+                                                 "robot.yaml");
+  EXPECT_EQ(deployment.name_space, "fleet/robot_1");
+  EXPECT_EQ(deployment.domain, 232);
+  const ServiceConfig& front = deployment.service("front");
+  EXPECT_EQ(front.qos, "sensor");
+  EXPECT_EQ(front.restart, RestartPolicy::never);
+  EXPECT_THAT(front.parameters, ElementsAre(ParameterSetting{"environment", "domestic_room"},
+                                            ParameterSetting{"rate_hz", "20 Hz"},
+                                            ParameterSetting{"range_stddev", "10 mm"},
+                                            ParameterSetting{"seed", "3"}));
+  EXPECT_EQ(deployment.service("walls").qos, "lossless");
+  EXPECT_EQ(deployment.service("walls").method, "iepf");
+}
+
+TEST(Reader, ThePresetForAllMayBeWrittenLast) {
+  const Deployment deployment = parse_deployment(
+      "version: 1\nservices:\n  - {name: front, kind: simulated}\nqos: lossless\n", "robot.yaml");
+  EXPECT_EQ(deployment.service("front").qos, "lossless");
+}
+
+TEST(Reader, ReplacesEnvironmentVariablesInParameters) {
+  ::setenv("QUOIN_TEST_FOLDER", "/data", 1);
+  const Deployment deployment = parse_deployment(
+      "version: 1\nservices:\n"
+      "  - {name: log, kind: replay, parameters: {path: \"${QUOIN_TEST_FOLDER}/a\", frame: "
+      "\"${QUOIN_NONE:-f}\"}}\n",
+      "robot.yaml");
+  ::unsetenv("QUOIN_TEST_FOLDER");
+  EXPECT_THAT(deployment.service("log").parameters,
+              ElementsAre(ParameterSetting{"path", "/data/a"}, ParameterSetting{"frame", "f"}));
+}
+
+TEST(Reader, ChecksValuesFromTheEnvironmentToo) {
+  EXPECT_THROW((void)parse_deployment(
+                   "version: 1\nservices:\n"
+                   "  - {name: log, kind: replay, parameters: {rate_hz: \"${QUOIN_NONE:-x}\"}}\n",
+                   "robot.yaml"),
+               DeploymentError);
+}
+
+TEST(Reader, ReadsFilesWithWindowsLineEnds) {
+  std::string text = chain;
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2)) {
+    text.insert(at, 1, '\r');
+  }
+  EXPECT_EQ(parse_deployment(text, "robot.yaml").services.size(), 5U);
+}
+
+TEST(Deployment, FindsServicesAndReaders) {
+  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  EXPECT_THAT(deployment.readers_of("walls"), ElementsAre(&deployment.service("lines")));
+  EXPECT_THAT(deployment.readers_of("corners"), testing::IsEmpty());
+  try {
+    (void)deployment.service("cornrs");
+    FAIL() << "found";
+  } catch (const std::out_of_range& error) {
+    EXPECT_STREQ(error.what(), "robot.yaml: no service 'cornrs'; did you mean 'corners'?");
+  }
+}
+
+TEST(Deployment, NamesTopics) {
+  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  EXPECT_EQ(output_topic(deployment, deployment.service("front")), "quoin/front/scan");
+  EXPECT_EQ(output_topic(deployment, deployment.service("walls")), "quoin/walls/segments");
+  EXPECT_EQ(output_topic(deployment, deployment.service("lines")), "quoin/lines/lines");
+  EXPECT_EQ(output_topic(deployment, deployment.service("corners")), "quoin/corners/corners");
+  EXPECT_EQ(status_topic("a/b"), "a/b/status");
+  EXPECT_EQ(control_request_topic("a"), "a/control/request");
+  EXPECT_EQ(control_reply_topic("a"), "a/control/reply");
+}
+
+class Files : public testing::Test {
+ protected:
+  Files() {
+    std::string pattern = testing::TempDir() + "quoin_XXXXXX";
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~Files() override { std::filesystem::remove_all(folder_); }
+
+  std::string error_of(const std::filesystem::path& file) {
+    try {
+      (void)load_deployment(file);
+    } catch (const DeploymentError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Files, ThatAreMissingOrNoFilesAreErrors) {
+  EXPECT_THAT(error_of(folder_ / "none.yaml"), HasSubstr("none.yaml: no such file"));
+  EXPECT_THAT(error_of(folder_), HasSubstr("is a directory"));
+  EXPECT_THAT(error_of("/dev/null"), HasSubstr("is not a regular file"));
+  EXPECT_THAT(error_of(""), HasSubstr("no such file"));
+}
+
+TEST_F(Files, ThatAreTooLargeAreErrors) {
+  const auto file = folder_ / "large.yaml";
+  std::ofstream(file) << chain << "#" << std::string(1024 * 1024, ' ');
+  EXPECT_THAT(error_of(file), HasSubstr("larger than 1 MiB"));
+}
+
+TEST_F(Files, AreLoaded) {
+  const auto file = folder_ / "robot.yaml";
+  std::ofstream(file) << chain;
+  EXPECT_EQ(load_deployment(file).services.size(), 5U);
+  EXPECT_EQ(load_deployment(file).file, file);
+}
+
+}  // namespace
+}  // namespace quoin::deploy
