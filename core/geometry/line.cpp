@@ -10,16 +10,6 @@ namespace quoin {
 
 Eigen::Vector2d Line::normal() const { return {std::cos(alpha), std::sin(alpha)}; }
 
-Eigen::Vector2d Line::project(const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d n = normal();
-  return point - (n.dot(point) - r) * n;
-}
-
-double Line::tangential(const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d n = normal();
-  return n.x() * point.y() - n.y() * point.x();
-}
-
 LineEstimate normalized(const LineEstimate& estimate) {
   LineEstimate result = estimate;
   if (result.line.r < 0.0) {

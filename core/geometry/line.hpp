@@ -11,10 +11,8 @@ struct Line {
   double alpha = 0.0;  ///< [rad] direction of the normal, in (-pi, pi]
   double r = 0.0;      ///< [m] distance from the sensor, >= 0
 
+  /// Unit vector (cos(alpha), sin(alpha)), from the sensor towards the line.
   [[nodiscard]] Eigen::Vector2d normal() const;
-  [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector2d& point) const;
-  /// Coordinate along the line, -x sin(alpha) + y cos(alpha) [m].
-  [[nodiscard]] double tangential(const Eigen::Vector2d& point) const;
 };
 
 /// A line with the covariance of (alpha, r), 2x2 [rad^2, rad m; rad m, m^2].

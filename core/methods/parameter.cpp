@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/methods/parameter.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -142,8 +144,14 @@ std::size_t parse_choice(const ParameterInfo& info, const std::string& text) {
 }
 
 std::string number_text(double value) {
-  // Shortest text that reads back as the same double; 32 characters hold every double.
+  // Shortest text that reads back as the same double; 32 characters hold every double. Whole
+  // numbers are written out: 100000 rather than 1e+05.
   std::array<char, 32> buffer{};
+  if (std::abs(value) < 1e15 && value == std::floor(value)) {
+    const auto whole = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                     static_cast<std::int64_t>(value));
+    return {buffer.data(), whole.ptr};
+  }
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
 }
@@ -182,6 +190,17 @@ void check_parameters(const std::vector<ParameterInfo>& infos, const ParameterSe
                                              suggestion(setting.name, names));
     }
     check_parameter(*known, setting.text);
+  }
+}
+
+void check_required(const std::vector<ParameterInfo>& infos, const ParameterSettings& settings) {
+  for (const ParameterInfo& info : infos) {
+    const bool given = std::any_of(settings.begin(), settings.end(), [&](const auto& setting) {
+      return setting.name == info.name && !setting.text.empty();
+    });
+    if (info.required && !given) {
+      throw ParameterError(info.name, "is missing: " + info.description);
+    }
   }
 }
 

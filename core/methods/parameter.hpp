@@ -37,6 +37,7 @@ struct ParameterInfo {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices;  ///< for ParameterType::choice
+  bool required = false;             ///< has no default that could be used
   std::string description;
 };
 
@@ -74,6 +75,7 @@ struct ParameterField {
   double minimum;
   double maximum;
   const char* description;
+  bool required = false;
 };
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -83,6 +85,14 @@ template <class Owner, class T>
 constexpr ParameterField<Owner, T> field(T Owner::*member, const char* name, const char* unit,
                                          double minimum, double maximum, const char* description) {
   return {member, name, unit, minimum, maximum, description};
+}
+
+/// A text without which nothing works.
+template <class Owner>
+constexpr ParameterField<Owner, std::string> required_field(std::string Owner::*member,
+                                                            const char* name,
+                                                            const char* description) {
+  return {member, name, "", -no_limit, no_limit, description, true};
 }
 
 /// A switch, a choice or a text.
@@ -99,6 +109,9 @@ void check_parameter(const ParameterInfo& info, const std::string& text);
 /// Throws ParameterError for the first setting that `infos` does not know (with the nearest name)
 /// or whose value is wrong.
 void check_parameters(const std::vector<ParameterInfo>& infos, const ParameterSettings& settings);
+
+/// Throws ParameterError for the first required parameter that is not among `settings`.
+void check_required(const std::vector<ParameterInfo>& infos, const ParameterSettings& settings);
 
 namespace detail {
 // The text of a setting as a value inside the limits of `info`; all throw ParameterError.
@@ -150,6 +163,7 @@ ParameterInfo describe_field(const ParameterField<Owner, T>& f, const Owner& def
   info.minimum = f.minimum;
   info.maximum = f.maximum;
   info.description = f.description;
+  info.required = f.required;
   if constexpr (std::is_enum_v<T>) {
     for (const auto& [value, name] : EnumNames<T>::names) info.choices.emplace_back(name);
   }
@@ -187,7 +201,9 @@ template <class P>
 /// The struct with `settings` applied to its defaults. Throws ParameterError.
 template <class P>
 [[nodiscard]] P make_parameters(const ParameterSettings& settings) {
-  check_parameters(describe_parameters<P>(), settings);
+  const std::vector<ParameterInfo> infos = describe_parameters<P>();
+  check_parameters(infos, settings);
+  check_required(infos, settings);
   P parameters{};
   for (const ParameterSetting& setting : settings) {
     std::apply(

@@ -33,7 +33,7 @@ const std::vector<KindInfo>& kinds() {
   using sensor_bridge::SimulatedParameters;
   static const std::vector<KindInfo> all{
       {"simulated",
-       "scans of a simulated sensor in a world that is built in",
+       "scans of a simulated sensor in a world, built in or of a file",
        "quoin-simulated",
        MessageType::none,
        MessageType::scan,

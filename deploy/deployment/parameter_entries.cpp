@@ -49,11 +49,12 @@ ParameterSettings read_parameters(const Entry& entry, const ServiceConfig& servi
                    place + " must be a single value, not " + what_is(parameter.value));
       continue;
     }
-    ParameterSetting setting{parameter.key, {}};
+    ParameterSetting setting{parameter.key, parameter.value.Scalar()};
     try {
       setting.text = replace_variables(parameter.value.Scalar(), environment_variable);
     } catch (const std::invalid_argument& error) {
       problems.add(parameter.value_at, place + ": " + error.what());
+      settings.push_back(std::move(setting));  // it is there, if only with a wrong value
       continue;
     }
     if (known != nullptr) check_setting(setting, parameter, service, *known, problems);

@@ -175,8 +175,18 @@ class Reader {
             *parameters, draft.config,
             known ? &parameters_of(*draft.kind, draft.config.method) : nullptr, problems_);
       }
+      if (known) require_parameters(parameters ? parameters->key_at : at, draft);
     }
     drafts_.push_back(std::move(draft));
+  }
+
+  void require_parameters(Position at, const DraftService& draft) {
+    try {
+      check_required(parameters_of(*draft.kind, draft.config.method), draft.config.parameters);
+    } catch (const ParameterError& error) {
+      problems_.add(at, "parameter '" + error.parameter() + "' of service '" + draft.config.name +
+                            "' " + error.what());
+    }
   }
 
   void read_name(const Entry& entry, DraftService& draft) {

@@ -41,11 +41,9 @@ std::string type_name(ParameterType type) {
 Json describe(const std::vector<ParameterInfo>& parameters) {
   Json list = Json::array();
   for (const ParameterInfo& info : parameters) {
-    Json object{{"name", info.name},
-                {"type", type_name(info.type)},
-                {"unit", info.unit},
-                {"default", info.default_value},
-                {"description", info.description}};
+    Json object{{"name", info.name},         {"type", type_name(info.type)},
+                {"unit", info.unit},         {"default", info.default_value},
+                {"required", info.required}, {"description", info.description}};
     if (std::isfinite(info.minimum)) object["minimum"] = info.minimum;
     if (std::isfinite(info.maximum)) object["maximum"] = info.maximum;
     if (!info.choices.empty()) object["choices"] = info.choices;
@@ -87,10 +85,13 @@ std::string range_text(const ParameterInfo& info) {
 
 void print(const std::vector<ParameterInfo>& parameters, const std::string& indent) {
   for (const ParameterInfo& info : parameters) {
-    std::cout << indent << info.name << " = "
-              << (info.default_value.empty() ? "''" : info.default_value);
+    std::cout << indent << info.name;
+    if (!info.required) {
+      std::cout << " = " << (info.default_value.empty() ? "''" : info.default_value);
+    }
     if (!info.unit.empty()) std::cout << ' ' << info.unit;
-    std::cout << "  (" << range_text(info) << ")\n" << indent << "    " << info.description << '\n';
+    std::cout << "  (" << range_text(info) << (info.required ? ", required" : "") << ")\n"
+              << indent << "    " << info.description << '\n';
   }
 }
 

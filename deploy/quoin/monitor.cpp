@@ -234,7 +234,7 @@ void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
   for (CornerWatch& watch : corners_) {
     if (watch.accounting.received() > 0) {
-      watch.accounting.finish(services_.at(watch.source).incarnations.published_by_newest());
+      watch.accounting.finish(services_.at(watch.source).incarnations.numbered_by_newest());
     } else {
       watch.lost_at_start = scans_published(watch.source);
     }

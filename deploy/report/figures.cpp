@@ -11,11 +11,12 @@ std::uint64_t Incarnations::published_by(std::uint64_t incarnation) const {
                   least == published_at_least_.end() ? 0 : least->second);
 }
 
-std::uint64_t Incarnations::published_by_newest() const {
+std::uint64_t Incarnations::numbered_by_newest() const {
   std::uint64_t newest = 0;
   if (!reports_.empty()) newest = reports_.rbegin()->first;
   if (!published_at_least_.empty()) newest = std::max(newest, published_at_least_.rbegin()->first);
-  return published_by(newest);
+  const auto report = reports_.find(newest);
+  return published_by(newest) + (report == reports_.end() ? 0 : report->second.lost);
 }
 
 ServiceReport Incarnations::total() const {

@@ -42,8 +42,8 @@ class Incarnations {
     published_at_least_[incarnation] = std::max(published_at_least_[incarnation], count);
   }
   [[nodiscard]] ServiceReport total() const;
-  /// Published by the newest process alone.
-  [[nodiscard]] std::uint64_t published_by_newest() const;
+  /// Scans that the newest process of a source has numbered: published, or lost in publishing.
+  [[nodiscard]] std::uint64_t numbered_by_newest() const;
 
  private:
   [[nodiscard]] std::uint64_t published_by(std::uint64_t incarnation) const;

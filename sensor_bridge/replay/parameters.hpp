@@ -57,9 +57,10 @@ struct ReplayParameters {
   static constexpr auto fields() {
     using P = ReplayParameters;
     return std::tuple{
-        field(&P::path, "path",
-              "scan file, or folder whose .csv, .log and .log.gz files are read in the order of "
-              "their names (relative to the deployment file); required"),
+        required_field(
+            &P::path, "path",
+            "scan file, or folder whose .csv, .log and .log.gz files are read in the order of "
+            "their names (relative to the deployment file)"),
         field(&P::format, "format", "how the files are written"),
         field(&P::speed, "speed", "", 0.0, 1000.0,
               "factor on the recorded speed; 0 is as fast as the readers accept"),

@@ -101,10 +101,6 @@ bool ScanFiles::read(RecordedScan& scan) {
 
 ScanFiles open_scan_files(const ReplayParameters& parameters,
                           const std::filesystem::path& base_directory) {
-  if (parameters.path.empty()) {
-    throw ParameterError("path",
-                         "parameter 'path' is missing; name a scan file or a folder of them");
-  }
   if (parameters.range_min >= parameters.range_max) {
     throw ParameterError("range_min", "range_min must be below range_max");
   }

@@ -19,7 +19,7 @@ msg::Point point_message(const Eigen::Vector2d& point) {
 
 void append_line(const LineEstimate& estimate, const PointsView& points, const SensorModel& sensor,
                  std::uint32_t segment, msg::Lines& out) {
-  const std::size_t last = points.size() - 1;
+  const LineSegment ends = line_segment(estimate, points);
   const Line& line = estimate.line;
   msg::Line& message = out.lines().emplace_back();
   message.alpha(line.alpha);
@@ -27,8 +27,8 @@ void append_line(const LineEstimate& estimate, const PointsView& points, const S
   message.covariance_alpha(estimate.covariance(0, 0));
   message.covariance_alpha_r(estimate.covariance(0, 1));
   message.covariance_r(estimate.covariance(1, 1));
-  message.start(point_message(line.project({points.x[0], points.y[0]})));
-  message.end(point_message(line.project({points.x[last], points.y[last]})));
+  message.start(point_message(ends.start));
+  message.end(point_message(ends.end));
   message.points(static_cast<std::uint32_t>(points.size()));
   message.chi_square(chi_square(line, points, sensor));
   message.segment(segment);

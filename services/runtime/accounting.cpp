@@ -88,10 +88,10 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   return losses;
 }
 
-std::vector<Loss> ScanAccounting::finish(std::uint64_t published) {
-  if (!previous_ || previous_->sequence_number + 1 >= published) return {};
+std::vector<Loss> ScanAccounting::finish(std::uint64_t scans) {
+  if (!previous_ || previous_->sequence_number + 1 >= scans) return {};
   const std::uint64_t first = previous_->sequence_number + 1;
-  const Loss loss{first, published - 1, published - first, "end"};
+  const Loss loss{first, scans - 1, scans - first, "end"};
   lost_by_stage_[loss.stage] += loss.count;
   return {loss};
 }

@@ -32,8 +32,8 @@ class ScanAccounting {
   /// the first message are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
 
-  /// Losses behind the last message, when the source is known to have published `published` scans.
-  std::vector<Loss> finish(std::uint64_t published);
+  /// Losses behind the last message, when the source is known to have numbered `scans` scans.
+  std::vector<Loss> finish(std::uint64_t scans);
 
   [[nodiscard]] std::uint64_t received() const { return received_; }
   [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }

@@ -66,6 +66,13 @@ Qos common_qos(Qos qos, QosPreset preset) {
   return qos;
 }
 
+// From noticing that a sample is missing to asking for it, and from being asked to sending it
+// again. A full lossless reader rejects samples all the time: asked for at once they would be
+// rejected again.
+Duration_t repeat_delay(QosPreset preset) {
+  return Duration_t(0, preset == QosPreset::lossless ? 5'000'000 : 1'000'000);
+}
+
 }  // namespace
 
 dds::DataWriterQos writer_qos(QosPreset preset) {
@@ -74,14 +81,13 @@ dds::DataWriterQos writer_qos(QosPreset preset) {
   // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
   auto& times = qos.reliable_writer_qos().times;
   times.heartbeatPeriod = Duration_t(0, 50'000'000);
-  times.nackResponseDelay = Duration_t(0, 1'000'000);
-  times.nackSupressionDuration = Duration_t(0, 0);
+  times.nackResponseDelay = repeat_delay(preset);
   return qos;
 }
 
 dds::DataReaderQos reader_qos(QosPreset preset) {
   dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), preset);
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, 1'000'000);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(preset);
   return qos;
 }
 

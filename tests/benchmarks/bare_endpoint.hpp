@@ -95,12 +95,12 @@ class BareParticipant {
   fast_dds::DataWriter* writer(const std::string& topic, bool lossless) {
     auto qos = common(fast_dds::DataWriterQos(fast_dds::DATAWRITER_QOS_DEFAULT), lossless);
     qos.reliable_writer_qos().times.heartbeatPeriod = milliseconds(50);
-    qos.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
+    qos.reliable_writer_qos().times.nackResponseDelay = milliseconds(lossless ? 5 : 1);
     return check(publisher_->create_datawriter(this->topic(topic), qos));
   }
   fast_dds::DataReader* reader(const std::string& topic, bool lossless) {
     auto qos = common(fast_dds::DataReaderQos(fast_dds::DATAREADER_QOS_DEFAULT), lossless);
-    qos.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(1);
+    qos.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(lossless ? 5 : 1);
     fast_dds::DataReader* made = check(subscriber_->create_datareader(this->topic(topic), qos));
     made->get_statuscondition().set_enabled_statuses(fast_dds::StatusMask::data_available());
     return made;

@@ -7,12 +7,10 @@
 namespace quoin {
 namespace {
 
-TEST(Line, ProjectsAndMeasuresAlong) {
+TEST(Line, NormalPointsFromTheSensorToTheLine) {
   const Line line{pi / 2, 2.0};  // y = 2
-  const Eigen::Vector2d p = line.project({3.0, 5.0});
-  EXPECT_NEAR(p.x(), 3.0, 1e-15);
-  EXPECT_NEAR(p.y(), 2.0, 1e-15);
-  EXPECT_NEAR(line.tangential({3.0, 5.0}), -3.0, 1e-15);
+  EXPECT_NEAR(line.normal().x(), 0.0, 1e-15);
+  EXPECT_NEAR(line.normal().y(), 1.0, 1e-15);
 }
 
 TEST(Normalized, TurnsNegativeDistancesAround) {

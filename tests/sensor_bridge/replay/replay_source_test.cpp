@@ -117,7 +117,8 @@ TEST(ReplaySource, RefusesWhatIsMissingWhenOpened) {
             }),
             "cannot read scan file '/nowhere/a.log': No such file or directory");
   EXPECT_EQ(error_of<ParameterError>([] { (void)open_replay(source_config({}), "/nowhere"); }),
-            "parameter 'path' is missing; name a scan file or a folder of them");
+            "is missing: scan file, or folder whose .csv, .log and .log.gz files are read in the "
+            "order of their names (relative to the deployment file)");
 }
 
 }  // namespace

@@ -126,8 +126,6 @@ TEST(OpenScanFiles, StartsAtTheBaseDirectory) {
 
 TEST(OpenScanFiles, RefusesParametersThatContradictEachOther) {
   ReplayParameters parameters;
-  EXPECT_EQ(error_of<ParameterError>([&] { (void)open_scan_files(parameters, "."); }),
-            "parameter 'path' is missing; name a scan file or a folder of them");
   parameters.path = "a.csv";
   parameters.range_min = 80.0;
   EXPECT_EQ(error_of<ParameterError>([&] { (void)open_scan_files(parameters, "."); }),
@@ -135,7 +133,8 @@ TEST(OpenScanFiles, RefusesParametersThatContradictEachOther) {
 }
 
 TEST(ReplayParameters, DefaultsPassTheirOwnLimits) {
-  const ReplayParameters defaults;
+  ReplayParameters defaults;
+  defaults.path = "scans.csv";
   ParameterSettings settings = parameter_settings(defaults);
   EXPECT_EQ(make_parameters<ReplayParameters>(settings).field_of_view, defaults.field_of_view);
 }
