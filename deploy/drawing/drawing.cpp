@@ -79,9 +79,13 @@ struct Projection {
     box.right = std::max(box.right, box.left + smallest_extent) + border;
     box.bottom -= border;
     box.top = std::max(box.top, box.bottom + smallest_extent) + border;
-    // Portrait rooms would become endless pages: the height is limited too.
+    // Portrait rooms would become endless pages: the height is limited too, and what is left of the
+    // width goes to both sides.
     scale = std::min((width - 2.0 * margin) / (box.right - box.left),
-                     1.4 * width / (box.top - box.bottom));
+                     1.1 * width / (box.top - box.bottom));
+    const double spare = (width - 2.0 * margin) / scale - (box.right - box.left);
+    box.left -= 0.5 * spare;
+    box.right += 0.5 * spare;
   }
 
   [[nodiscard]] double x(double metres) const { return margin + (metres - box.left) * scale; }
