@@ -16,7 +16,7 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr std::size_t largest_file = 1024 * 1024;
+constexpr std::size_t largest_file = 1U << 20U;  // [byte]
 constexpr std::size_t most_services = 256;
 constexpr std::size_t longest_name = 64;
 constexpr int highest_domain = 232;

@@ -58,7 +58,7 @@ bool ScanAccounting::follows(const msg::Header& header) const {
 }
 
 void ScanAccounting::remember(const msg::Header& header) {
-  if (!previous_) previous_.emplace();
+  if (!previous_) previous_ = Previous{};
   previous_->sequence_number = header.sequence_number();
   previous_->stages.resize(header.trace().size());
   for (std::size_t i = 0; i < header.trace().size(); ++i) {
