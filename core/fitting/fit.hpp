@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/geometry/line.hpp"
@@ -24,6 +25,17 @@ template <>
 struct EnumNames<CovarianceMode> {
   static constexpr std::array<std::pair<CovarianceMode, std::string_view>, 2> names{
       {{CovarianceMode::propagated, "propagated"}, {CovarianceMode::as_published, "as_published"}}};
+};
+
+/// Parameters of a fitter that has nothing else to choose.
+struct CovarianceParameters {
+  CovarianceMode covariance = CovarianceMode::propagated;
+
+  static constexpr auto fields() {
+    return std::make_tuple(field(&CovarianceParameters::covariance, "covariance",
+                                 "propagated: sum over independent points; as_published: as the "
+                                 "paper prints it"));
+  }
 };
 
 /// Why a fit has no result.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tuple>
-
 #include "core/fitting/fit.hpp"
 
 namespace quoin {
@@ -19,15 +17,7 @@ class Utls {
   static constexpr const char* description = "algebraic line fit with equal weights";
   static constexpr const char* source = "Siadat et al. 1997; Prieto-Fernandez et al. 2026, eq. 1-7";
 
-  struct Parameters {
-    CovarianceMode covariance = CovarianceMode::propagated;
-
-    static constexpr auto fields() {
-      return std::make_tuple(field(&Parameters::covariance, "covariance",
-                                   "propagated: sum over independent points; as_published: as the "
-                                   "paper prints it"));
-    }
-  };
+  using Parameters = CovarianceParameters;
 
   Utls() = default;
   explicit Utls(const Parameters& parameters) : parameters_(parameters) {}

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tuple>
-
 #include "core/fitting/fit.hpp"
 
 namespace quoin {
@@ -22,23 +20,12 @@ class Wctls {
       "weighted conformal total least squares: the line by its point Q in the inverted plane";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
 
-  struct Parameters {
-    CovarianceMode covariance = CovarianceMode::propagated;
-
-    static constexpr auto fields() {
-      return std::make_tuple(field(&Parameters::covariance, "covariance",
-                                   "propagated: sum over independent points; as_published: as the "
-                                   "paper prints it"));
-    }
-  };
+  using Parameters = CovarianceParameters;
 
   Wctls() = default;
-  explicit Wctls(const Parameters& parameters) : parameters_(parameters) {}
+  explicit Wctls(const Parameters&) {}
 
   FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
-
- private:
-  Parameters parameters_;
 };
 
 }  // namespace quoin

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tuple>
-
 #include "core/fitting/fit.hpp"
 
 namespace quoin {
@@ -21,15 +19,7 @@ class Wtls {
   static constexpr const char* description = "algebraic line fit with weights 1 / range^2";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 8-15";
 
-  struct Parameters {
-    CovarianceMode covariance = CovarianceMode::propagated;
-
-    static constexpr auto fields() {
-      return std::make_tuple(field(&Parameters::covariance, "covariance",
-                                   "propagated: sum over independent points; as_published: as the "
-                                   "paper prints it"));
-    }
-  };
+  using Parameters = CovarianceParameters;
 
   Wtls() = default;
   explicit Wtls(const Parameters& parameters) : parameters_(parameters) {}

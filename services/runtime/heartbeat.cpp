@@ -103,40 +103,35 @@ void Heartbeat::count_published(std::int64_t scan_published, std::int64_t receiv
 }
 
 msg::ServiceStatus Heartbeat::snapshot() {
-  msg::ServiceStatus status;
-  std::function<void(msg::ServiceStatus&)> report;
-  {
-    const std::lock_guard lock(mutex_);
-    changed_state_ = false;
-    const std::int64_t now = now_ns();
-    const double elapsed = seconds(rate_since_, now);
-    if (elapsed >= 0.5) {  // heartbeats at changes of state come too close for a rate
-      status_.rate(static_cast<double>(status_.published() - rate_published_) / elapsed);
-      rate_published_ = status_.published();
-      rate_since_ = now;
-    }
-    status_.stamp(now);
-    std::uint64_t lost = 0;
-    status_.losses().clear();
-    for (std::size_t i = 0; i < cause_names.size(); ++i) {
-      if (losses_[i] == 0) continue;
-      lost += losses_[i];
-      msg::LossCount count;
-      count.cause(cause_names[i]);
-      count.count(losses_[i]);
-      status_.losses().push_back(count);
-    }
-    status_.lost(lost);
-    status_.latency_p50(latency_.quantile(0.5));
-    status_.latency_p99(latency_.quantile(0.99));
-    status_.processing_p50(processing_.quantile(0.5));
-    status_.processing_p99(processing_.quantile(0.99));
-    status_.resident_memory(resident_bytes());
-    status = status_;
-    report = endpoint_report_;
+  const std::uint64_t resident = resident_bytes();
+  const std::lock_guard lock(mutex_);
+  changed_state_ = false;
+  const std::int64_t now = now_ns();
+  const double elapsed = seconds(rate_since_, now);
+  if (elapsed >= 0.5) {  // heartbeats at changes of state come too close for a rate
+    status_.rate(static_cast<double>(status_.published() - rate_published_) / elapsed);
+    rate_published_ = status_.published();
+    rate_since_ = now;
   }
-  if (report) report(status);
-  return status;
+  status_.stamp(now);
+  std::uint64_t lost = 0;
+  status_.losses().clear();
+  for (std::size_t i = 0; i < cause_names.size(); ++i) {
+    if (losses_[i] == 0) continue;
+    lost += losses_[i];
+    msg::LossCount count;
+    count.cause(cause_names[i]);
+    count.count(losses_[i]);
+    status_.losses().push_back(count);
+  }
+  status_.lost(lost);
+  status_.latency_p50(latency_.quantile(0.5));
+  status_.latency_p99(latency_.quantile(0.99));
+  status_.processing_p50(processing_.quantile(0.5));
+  status_.processing_p99(processing_.quantile(0.99));
+  status_.resident_memory(resident);
+  if (endpoint_report_) endpoint_report_(status_);
+  return status_;
 }
 
 void Heartbeat::run() {

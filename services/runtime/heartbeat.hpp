@@ -41,6 +41,7 @@ class Heartbeat {
   void set_method(const std::string& method);
   /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_
   /// fields.
+  /// An empty function takes the report back: when this returns, it no longer runs.
   void set_endpoint_report(std::function<void(msg::ServiceStatus&)> report);
 
   void count_received(std::uint64_t upstream_lost, std::uint64_t link_lost);

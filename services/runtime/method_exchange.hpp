@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "services/runtime/control.hpp"
@@ -61,6 +62,8 @@ class MethodExchange {
       case msg::ControlAction::CONTROL_SET_PARAMETERS:
         exchange(wanted_method_, merged(settings(request)), reply);
         break;
+      default:  // the wire may carry any number
+        throw std::invalid_argument("unknown action");
     }
     reply.accepted(true);
     reply.method(wanted_method_);

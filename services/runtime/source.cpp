@@ -93,6 +93,7 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
   service.heartbeat.finish(state, detail);
+  service.heartbeat.set_endpoint_report(nullptr);
   return exit_code;
 }
 

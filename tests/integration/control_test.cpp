@@ -90,6 +90,8 @@ TEST_F(Control, ARefusedRequestChangesNothing) {
   const msg::ControlReply wrong =
       ask(msg::ControlAction::CONTROL_SET_PARAMETERS, "", {{"covariance", "guessed"}});
   EXPECT_FALSE(wrong.accepted());
+  const msg::ControlReply strange = ask(static_cast<msg::ControlAction>(99), "", {});
+  EXPECT_FALSE(strange.accepted());
   const msg::ControlReply now = ask(msg::ControlAction::CONTROL_DESCRIBE, "", {});
   EXPECT_TRUE(now.accepted());
   EXPECT_EQ(now.method(), "wctls");
