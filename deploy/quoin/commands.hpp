@@ -8,15 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace quoin::deploy {
+#include "deploy/deployment/exit_code.hpp"
 
-/// Exit codes of all programs of this project.
-enum ExitCode : int {
-  exit_ok = 0,
-  exit_failure = 1,
-  exit_configuration = 2,  ///< wrong usage or configuration
-  exit_input = 3,          ///< the input of a source is unusable
-};
+namespace quoin::deploy {
 
 /// A subcommand: its command line, and what to do once that has been parsed. Returns the exit code.
 struct Command {

@@ -8,6 +8,7 @@
 #include "deploy/quoin/commands.hpp"
 
 int main(int argc, char** argv) {
+  using namespace quoin;
   using namespace quoin::deploy;
   CLI::App app{"Quoin: lines and corners with trustworthy covariances from 2D LiDAR scans"};
   app.name("quoin");

@@ -6,13 +6,13 @@
 #include <signal.h>
 #include <stdexcept>
 
+#include "deploy/deployment/exit_code.hpp"
+
 namespace quoin::deploy {
 
 namespace {
 using std::chrono::milliseconds;
 constexpr milliseconds patience{5000};  // from SIGTERM to SIGKILL
-constexpr int configuration_error = 2;
-constexpr int input_error = 3;
 
 std::string seconds_text(milliseconds time) {
   return std::to_string(time.count() / 1000) + "." + std::to_string(time.count() % 1000 / 100) +
@@ -72,21 +72,21 @@ void Supervisor::judge(Child& child, const ProcessEnd& end) {
   child.first = false;
   // A process that was only just started has no handler for SIGTERM yet.
   const bool orderly =
-      end.exited_with(0) || (child.told_to_stop && end.by_signal && end.value == SIGTERM);
+      end.exited_with(exit_ok) || (child.told_to_stop && end.by_signal && end.value == SIGTERM);
   child.figures.phase = orderly ? ProcessPhase::finished : ProcessPhase::dead;
   if (orderly) {
     if (!child.told_to_stop && !child.plan.source) {
       callbacks_.event(child.plan.name, "ended by itself; not started again");
     }
-  } else if (child.plan.source && end.exited_with(input_error)) {
+  } else if (child.plan.source && end.exited_with(exit_input)) {
     callbacks_.event(child.plan.name, "its input became unusable; not started again");
-    fail(input_error);
+    fail(exit_input);
   } else if (child.told_to_stop) {
     callbacks_.event(child.plan.name, "ended with " + describe(end) + " while stopping");
-    fail(1);
-  } else if (end.exited_with(configuration_error) && !was_active) {
+    fail(exit_failure);
+  } else if (end.exited_with(exit_configuration) && !was_active) {
     callbacks_.event(child.plan.name, "cannot work with its configuration; stopping all");
-    fail(configuration_error);
+    fail(exit_configuration);
     request_stop();
   } else {
     die(child, end);
@@ -101,7 +101,7 @@ void Supervisor::die(Child& child, const ProcessEnd& end) {
   if (stopping_) {
     // Its level is still to come, but nobody would wait for what a new process could do.
     callbacks_.event(child.plan.name, text);
-    fail(1);
+    fail(exit_failure);
   } else if (child.plan.restart) {
     const milliseconds pause = child.backoff.next(lifetime);
     child.restart_at = Clock::now() + pause;
@@ -109,7 +109,7 @@ void Supervisor::die(Child& child, const ProcessEnd& end) {
     callbacks_.event(child.plan.name, text + "; starting again in " + seconds_text(pause));
   } else {
     callbacks_.event(child.plan.name, text + "; stays dead (restart: never)");
-    fail(1);
+    fail(exit_failure);
   }
 }
 
@@ -185,7 +185,7 @@ void Supervisor::kill_all() {
 
 void Supervisor::fail(int code) {
   // A wrong configuration explains everything else; otherwise the first cause stands.
-  if (exit_code_ == 0 || code == configuration_error) exit_code_ = code;
+  if (exit_code_ == exit_ok || code == exit_configuration) exit_code_ = code;
 }
 
 bool Supervisor::ended() const {

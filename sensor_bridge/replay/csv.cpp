@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/replay/number.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "sensor_bridge/range_limits.hpp"
 #include "sensor_bridge/replay/carmen.hpp"
 #include "sensor_bridge/replay/csv.hpp"
 
@@ -101,9 +102,7 @@ bool ScanFiles::read(RecordedScan& scan) {
 
 ScanFiles open_scan_files(const ReplayParameters& parameters,
                           const std::filesystem::path& base_directory) {
-  if (parameters.range_min >= parameters.range_max) {
-    throw ParameterError("range_min", "range_min must be below range_max");
-  }
+  check_range_limits(parameters);
   return {base_directory / parameters.path, parameters.format, parameters.field_of_view};
 }
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sensor_bridge/range_limits.hpp"
+
 namespace quoin::sensor_bridge {
 
 ScannerSettings scanner_settings(const SimulatedParameters& parameters) {
-  if (parameters.range_min >= parameters.range_max) {
-    throw ParameterError("range_min", "range_min must be below range_max");
-  }
+  check_range_limits(parameters);
   ScannerSettings settings;
   settings.points = static_cast<std::size_t>(parameters.points);
   // The limit of the parameter is 2 pi rounded up, for those who write 6.2832.

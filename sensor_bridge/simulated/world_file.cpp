@@ -3,12 +3,10 @@
 #include "sensor_bridge/simulated/world_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -17,6 +15,7 @@
 
 #include "core/methods/suggestion.hpp"
 #include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -101,14 +100,11 @@ class WorldParser {
 
   [[nodiscard]] double number(const YAML::Node& node) const {
     if (!node.IsScalar()) fail(node, "a number is expected here");
-    std::string_view digits = node.Scalar();
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) {
+    const std::optional<double> value = parse_number<double>(node.Scalar());
+    if (!value || !std::isfinite(*value)) {
       fail(node, excerpt(node.Scalar()) + " is not a finite number");
     }
-    return value;
+    return *value;
   }
 
   [[nodiscard]] std::vector<double> numbers(const YAML::Node& node, const std::string& what,

@@ -8,19 +8,12 @@
 #include <string>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/deployment/exit_code.hpp"
 #include "services/runtime/heartbeat.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/stop_signal.hpp"
 
 namespace quoin::runtime {
-
-/// Exit codes of all programs.
-enum ExitCode : int {
-  exit_ok = 0,
-  exit_failure = 1,
-  exit_configuration = 2,  ///< wrong usage or configuration: starting again does not help
-  exit_input = 3,          ///< a source's input became unusable
-};
 
 /// What every service process has.
 struct Service {

@@ -21,23 +21,18 @@ class PublishingSource final : public Source {
         writer_(writer),
         lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
 
-  [[nodiscard]] const deploy::ServiceConfig& config() const override { return service_.config; }
-  [[nodiscard]] std::filesystem::path base_directory() const override {
-    return service_.deployment.file.parent_path();
-  }
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time) override {
     return service_.stop.wait_until(time);
   }
-  [[nodiscard]] bool stopping() const override { return service_.stop.requested(); }
 
   bool publish(msg::Scan& scan) override {
-    if (stopping()) return false;
+    if (service_.stop.requested()) return false;
     msg::Header& header = scan.header();
-    header.sensor(config().name);
+    header.sensor(service_.config.name);
     header.sequence_number(next_sequence_++);
     header.trace().resize(1);
     msg::StageTrace& trace = header.trace()[0];
-    trace.service(config().name);
+    trace.service(service_.config.name);
     trace.incarnation(service_.heartbeat.incarnation());
     trace.index(next_index_);
     trace.received(now_ns());
@@ -48,7 +43,7 @@ class PublishingSource final : public Source {
     } else {
       service_.heartbeat.count_loss(LossCause::publishing);
     }
-    return !stopping();
+    return !service_.stop.requested();
   }
 
   void warn(const std::string& text) override {

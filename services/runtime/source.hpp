@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <idl/Scan.h>
 #include <memory>
@@ -26,13 +27,8 @@ class Source {
  public:
   virtual ~Source() = default;
 
-  [[nodiscard]] virtual const deploy::ServiceConfig& config() const = 0;
-  /// Folder of the deployment file; relative paths in parameters start there.
-  [[nodiscard]] virtual std::filesystem::path base_directory() const = 0;
-
   /// Waits until `time`; false at once when the service is asked to stop.
   [[nodiscard]] virtual bool wait_until(std::chrono::steady_clock::time_point time) = 0;
-  [[nodiscard]] virtual bool stopping() const = 0;
 
   /// Publishes a scan whose header.stamp and header.frame are set; the rest of the header is filled
   /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.

@@ -14,14 +14,11 @@ namespace quoin::testing {
 /// A service kit that never waits and keeps what is published.
 class RecordingSource : public runtime::Source {
  public:
-  const deploy::ServiceConfig& config() const override { return config_; }
-  std::filesystem::path base_directory() const override { return "."; }
-
   bool wait_until(std::chrono::steady_clock::time_point time) override {
     deadlines.push_back(time);
     return !stopping();
   }
-  bool stopping() const override { return scans.size() >= stop_after; }
+  [[nodiscard]] bool stopping() const { return scans.size() >= stop_after; }
   bool publish(msg::Scan& scan) override {
     scans.push_back(scan);
     memory.push_back(scan.ranges().data());
@@ -34,9 +31,6 @@ class RecordingSource : public runtime::Source {
   std::vector<msg::Scan> scans;
   std::vector<const float*> memory;  ///< of the ranges of the published messages
   std::vector<std::string> warnings;
-
- private:
-  deploy::ServiceConfig config_;
 };
 
 /// The configuration of a source with these parameters.
