@@ -42,55 +42,33 @@ double distance_to(const Pillar& pillar, const Eigen::Vector2d& origin,
 
 }  // namespace
 
-double cast_ray(const World& world, const Eigen::Vector2d& origin,
-                const Eigen::Vector2d& direction) {
-  double nearest = nothing;
-  for (const Wall& wall : world.walls)
-    nearest = std::min(nearest, distance_to(wall, origin, direction));
-  for (const Pillar& pillar : world.pillars) {
-    nearest = std::min(nearest, distance_to(pillar, origin, direction));
+Hit cast_ray(const World& world, const Eigen::Vector2d& origin, const Eigen::Vector2d& direction) {
+  Hit hit;
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const double distance = distance_to(world.walls[i], origin, direction);
+    if (distance < hit.distance) hit = {distance, i};
   }
-  return nearest;
+  for (const Pillar& pillar : world.pillars) {
+    const double distance = distance_to(pillar, origin, direction);
+    if (distance < hit.distance) hit = {distance, Hit::no_wall};
+  }
+  return hit;
 }
 
 SimulatedScanner::SimulatedScanner(World world, const ScannerSettings& settings, std::uint64_t seed)
-    : world_(std::move(world)), settings_(settings), engine_(seed) {}
-
-double SimulatedScanner::uniform() {
-  // 53 bits; std::uniform_real_distribution differs between standard libraries.
-  return static_cast<double>(engine_() >> 11U) * 0x1p-53;
-}
-
-double SimulatedScanner::normal() {
-  if (has_spare_) {
-    has_spare_ = false;
-    return spare_;
-  }
-  // Polar method of Marsaglia; std::normal_distribution differs between standard libraries.
-  double u = 0.0;
-  double v = 0.0;
-  double s = 0.0;
-  do {
-    u = 2.0 * uniform() - 1.0;
-    v = 2.0 * uniform() - 1.0;
-    s = u * u + v * v;
-  } while (s >= 1.0 || s == 0.0);
-  const double scale = std::sqrt(-2.0 * std::log(s) / s);
-  spare_ = v * scale;
-  has_spare_ = true;
-  return u * scale;
-}
+    : world_(std::move(world)), settings_(settings), random_(seed) {}
 
 void SimulatedScanner::scan(double distance, double speed, SimulatedScan& out) {
   const std::size_t count = settings_.points;
   out.bearings.resize(count);
   out.ranges.resize(count);
   out.time_offsets.resize(count);
+  out.walls.resize(count);
   if (count == 0) return;
 
   const double step = settings_.field_of_view / static_cast<double>(count);
   const double time_step = settings_.period * step / (2.0 * pi);
-  const double start = settings_.first_bearing + uniform() * step;
+  const double start = settings_.first_bearing + random_.uniform() * step;
   const bool moves = speed != 0.0;
   Pose2 pose = world_.pose_at(distance);
   for (std::size_t i = 0; i < count; ++i) {
@@ -98,15 +76,17 @@ void SimulatedScanner::scan(double distance, double speed, SimulatedScan& out) {
     const double time = static_cast<double>(i) * time_step;
     if (moves) pose = world_.pose_at(distance + speed * time);
     const double heading = pose.theta + bearing;
-    const double truth = cast_ray(world_, {pose.x, pose.y}, {std::cos(heading), std::sin(heading)});
+    const Hit hit = cast_ray(world_, {pose.x, pose.y}, {std::cos(heading), std::sin(heading)});
     // Every ray takes the same number of random numbers, so that one setting does not shift the
     // rest.
-    const bool dropped = uniform() < settings_.dropout;
-    const double range = truth + settings_.range_bias + settings_.noise.range_stddev * normal();
-    const double reported_bearing = bearing + settings_.noise.bearing_stddev * normal();
+    const bool dropped = random_.uniform() < settings_.dropout;
+    const double range =
+        hit.distance + settings_.range_bias + settings_.noise.range_stddev * random_.normal();
+    const double reported_bearing = bearing + settings_.noise.bearing_stddev * random_.normal();
 
     out.bearings[i] = static_cast<float>(reported_bearing);
     out.time_offsets[i] = static_cast<float>(time);
+    out.walls[i] = hit.wall;
     if (dropped || range < settings_.range_min) {
       out.ranges[i] = std::numeric_limits<float>::quiet_NaN();
     } else if (range > settings_.range_max) {

@@ -2,25 +2,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <random>
+#include <limits>
 #include <vector>
 
 #include "core/geometry/pose.hpp"
 #include "core/sensor/sensor_model.hpp"
+#include "core/simulation/random.hpp"
 #include "core/simulation/world.hpp"
 
 namespace quoin {
 
-/// Distance [m] from `origin` along the unit vector `direction` to the first obstacle, or +inf.
-[[nodiscard]] double cast_ray(const World& world, const Eigen::Vector2d& origin,
-                              const Eigen::Vector2d& direction);
+/// What a ray meets first.
+struct Hit {
+  static constexpr std::size_t no_wall = std::numeric_limits<std::size_t>::max();
+
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]; +inf when it meets nothing
+  std::size_t wall = no_wall;  ///< index in World::walls; `no_wall` for a pillar or nothing
+};
+
+/// From `origin` along the unit vector `direction`.
+[[nodiscard]] Hit cast_ray(const World& world, const Eigen::Vector2d& origin,
+                           const Eigen::Vector2d& direction);
 
 /// A scan in the order of acquisition (counter-clockwise), as a sensor would report it.
 struct SimulatedScan {
   std::vector<float> bearings;      ///< [rad] as reported, with noise
   std::vector<float> ranges;        ///< [m] as reported; NaN dropped out, +inf no return
   std::vector<float> time_offsets;  ///< [s] after the first ray
+  std::vector<std::size_t> walls;   ///< Hit::wall of each ray: the truth
 };
 
 struct ScannerSettings {
@@ -51,14 +62,9 @@ class SimulatedScanner {
   [[nodiscard]] const ScannerSettings& settings() const { return settings_; }
 
  private:
-  double normal();   ///< standard normal deviate
-  double uniform();  ///< in [0, 1)
-
   World world_;
   ScannerSettings settings_;
-  std::mt19937_64 engine_;
-  bool has_spare_ = false;
-  double spare_ = 0.0;
+  Random random_;
 };
 
 }  // namespace quoin

@@ -16,14 +16,15 @@ TEST(CastRay, HitsWhatIsNearest) {
   World world;
   world.walls = {{{2, -1}, {2, 1}}, {{3, -5}, {3, 5}}};
   world.pillars = {{{0, 4}, 0.5}};
-  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 0}, {1, 0}), 2.0);
-  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 2}, {1, 0}), 3.0);
-  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 0}, {0, 1}), 3.5);
-  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 4}, {0, 1}), 0.5);
-  EXPECT_DOUBLE_EQ(cast_ray(world, {2, 0}, {0, 1}), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(cast_ray(world, {0, 0}, {-1, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 0}, {1, 0}).distance, 2.0);
+  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 2}, {1, 0}).distance, 3.0);
+  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 0}, {0, 1}).distance, 3.5);
+  EXPECT_DOUBLE_EQ(cast_ray(world, {0, 4}, {0, 1}).distance, 0.5);
+  EXPECT_DOUBLE_EQ(cast_ray(world, {2, 0}, {0, 1}).distance,
+                   std::numeric_limits<double>::infinity());
+  EXPECT_EQ(cast_ray(world, {0, 0}, {-1, 0}).distance, std::numeric_limits<double>::infinity());
   const double root = std::sqrt(0.5);
-  EXPECT_NEAR(cast_ray(world, {1, 0}, {root, root}), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(cast_ray(world, {1, 0}, {root, root}).distance, std::sqrt(2.0), 1e-12);
 }
 
 TEST(SimulatedScanner, RepeatsItselfAndVariesItsStart) {

@@ -48,7 +48,7 @@ TEST(BuiltInWorlds, AreClosedAroundTheirPath) {
       for (int k = 0; k < 360; ++k) {
         const double bearing = k * pi / 180.0;
         const double range =
-            cast_ray(world, {pose.x, pose.y}, {std::cos(bearing), std::sin(bearing)});
+            cast_ray(world, {pose.x, pose.y}, {std::cos(bearing), std::sin(bearing)}).distance;
         ASSERT_GT(range, 0.15) << name << " " << distance;
         ASSERT_LT(range, 20.0) << name << " " << distance;
       }
@@ -61,7 +61,7 @@ TEST(BuiltInWorlds, ShowAllCornersOfTheSquareRoom) {
   for (const Eigen::Vector2d& corner : world.corners()) {
     const Eigen::Vector2d origin(world.path[0].x, world.path[0].y);
     const Eigen::Vector2d ray = corner - origin;
-    EXPECT_NEAR(cast_ray(world, origin, ray.normalized()), ray.norm(), 1e-9);
+    EXPECT_NEAR(cast_ray(world, origin, ray.normalized()).distance, ray.norm(), 1e-9);
   }
 }
 

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/evaluation/consistency.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/evaluation/cramer_rao.hpp"
+#include "core/geometry/corner.hpp"
+
+namespace quoin {
+namespace {
+
+/// Values of which the mean and its uncertainty are wanted.
+struct Sums {
+  double sum = 0.0;
+  double squares = 0.0;
+  std::size_t count = 0;
+
+  void add(double value) {
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
+  [[nodiscard]] Interval mean() const { return quoin::mean(sum, squares, count); }
+};
+
+struct CornerSums {
+  Sums nees;
+  std::size_t covered = 0;
+  double squared_error = 0.0;  // [m^2]
+  Eigen::Vector2d error = Eigen::Vector2d::Zero();
+};
+
+/// Root of the mean squared distance [m] at the bound, for each corner.
+std::vector<double> corner_bounds(const Scene& scene, const SensorModel& noise) {
+  std::vector<LineEstimate> lines;
+  Random unused(0);
+  Points points;
+  for (const VisibleWall& wall : scene.walls) {
+    measure(wall, {0.0, 0.0, 0.0}, unused, points);
+    lines.push_back({wall.line, cramer_rao_bound(wall.line, points, noise)});
+  }
+  std::vector<double> bounds;
+  for (const VisibleCorner& corner : scene.corners) {
+    const auto estimate = intersect(lines[corner.first], lines[corner.second]);
+    bounds.push_back(estimate ? std::sqrt(estimate->covariance.trace()) : 0.0);
+  }
+  return bounds;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace
+
+Consistency judge_consistency(const Fitter& fitter, const Scene& scene, const SensorModel& noise,
+                              std::size_t trials, std::uint64_t seed) {
+  Consistency result;
+  result.trials = trials;
+  Random random(seed);
+  Points points;
+  std::vector<FitResult> lines(scene.walls.size());
+  std::vector<CornerSums> corners(scene.corners.size());
+  Sums nees;  // means of a trial: its corners share lines and are not independent
+  Sums coverage;
+  for (std::size_t trial = 0; trial < trials; ++trial) {
+    for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+      measure(scene.walls[k], noise, random, points);
+      lines[k] = fitter(points, noise);
+      ++result.failures[static_cast<std::size_t>(lines[k].failure)];
+    }
+    double trial_nees = 0.0;
+    std::size_t trial_covered = 0;
+    std::size_t trial_corners = 0;
+    for (std::size_t k = 0; k < scene.corners.size(); ++k) {
+      const FitResult& first = lines[scene.corners[k].first];
+      const FitResult& second = lines[scene.corners[k].second];
+      if (!first.ok() || !second.ok()) continue;
+      const auto estimate = intersect(first.estimate, second.estimate);
+      if (!estimate) continue;
+      const Eigen::Vector2d error = estimate->position - scene.corners[k].position;
+      const double squared = error.dot(estimate->covariance.inverse() * error);
+      if (!std::isfinite(squared)) continue;
+      const bool covered = squared <= chi_square_2_95;
+      corners[k].nees.add(squared);
+      corners[k].covered += covered ? 1 : 0;
+      corners[k].squared_error += error.squaredNorm();
+      corners[k].error += error;
+      trial_nees += squared;
+      trial_covered += covered ? 1 : 0;
+      ++trial_corners;
+    }
+    if (trial_corners == 0) continue;
+    nees.add(trial_nees / static_cast<double>(trial_corners));
+    coverage.add(static_cast<double>(trial_covered) / static_cast<double>(trial_corners));
+  }
+
+  result.nees = nees.mean();
+  result.coverage95 = coverage.mean();
+  const std::vector<double> bounds = corner_bounds(scene, noise);
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const CornerSums& sums = corners[k];
+    if (sums.nees.count == 0) continue;
+    const auto count = static_cast<double>(sums.nees.count);
+    CornerConsistency corner;
+    corner.position = scene.corners[k].position;
+    corner.trials = sums.nees.count;
+    corner.nees = sums.nees.mean();
+    corner.coverage95 = proportion(sums.covered, corner.trials);
+    corner.rmse = std::sqrt(sums.squared_error / count);
+    corner.bound = bounds[k];
+    corner.bias = sums.error / count;
+    const double standard_error = std::sqrt(0.95 * 0.05 / count);
+    result.worst_corner =
+        std::max(result.worst_corner, std::abs(corner.coverage95.value - 0.95) / standard_error);
+    ratios.push_back(corner.rmse / corner.bound);
+    result.corners.push_back(corner);
+  }
+  result.rmse_over_crb = median(std::move(ratios));
+  return result;
+}
+
+}  // namespace quoin

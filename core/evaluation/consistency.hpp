@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/interval.hpp"
+#include "core/evaluation/scene.hpp"
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// How often each FitFailure occurred, indexed by its value.
+using FailureCounts = std::array<std::size_t, EnumNames<FitFailure>::names.size()>;
+
+/// How true the covariance of one corner is.
+struct CornerConsistency {
+  Eigen::Vector2d position;  ///< [m] true, in the sensor's frame
+  std::size_t trials = 0;    ///< in which both lines were found
+  Interval nees;             ///< mean squared Mahalanobis distance from the truth; 2 is right
+  Interval coverage95;       ///< of the 95 % ellipse
+  double rmse = 0.0;         ///< [m] root of the mean squared distance from the truth
+  double bound = 0.0;        ///< [m] the same for an estimator that attains the Cramer-Rao bound
+  Eigen::Vector2d bias;      ///< [m] mean error
+};
+
+/// How true the covariances of one fitter are in one scene with one noise, points assigned to their
+/// true walls.
+struct Consistency {
+  std::size_t trials = 0;
+  Interval nees;               ///< over all corners
+  Interval coverage95;         ///< over all corners
+  double rmse_over_crb = 0.0;  ///< median over the corners
+  /// Largest distance of a corner's coverage from 95 %, in standard errors of that coverage.
+  double worst_corner = 0.0;
+  FailureCounts failures{};
+  std::vector<CornerConsistency> corners;
+};
+
+/// Monte Carlo: every trial measures all walls of the scene anew, fits them and intersects the
+/// neighbours. Same seed, same result, on every machine of the same floating-point arithmetic.
+[[nodiscard]] Consistency judge_consistency(const Fitter& fitter, const Scene& scene,
+                                            const SensorModel& noise, std::size_t trials,
+                                            std::uint64_t seed);
+
+}  // namespace quoin

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace quoin {
+
+/// A figure found by counting or averaging, with its 95 % confidence interval.
+struct Interval {
+  double value = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Wilson's interval of a proportion from `effective` independent trials (fewer than `trials` when
+/// they are correlated). All zero without trials.
+[[nodiscard]] Interval proportion(std::size_t hits, std::size_t trials, double effective);
+[[nodiscard]] inline Interval proportion(std::size_t hits, std::size_t trials) {
+  return proportion(hits, trials, static_cast<double>(trials));
+}
+
+/// Mean of independent values from their sums, interval by the normal distribution.
+[[nodiscard]] Interval mean(double sum, double sum_of_squares, std::size_t count);
+
+}  // namespace quoin

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/evaluation/interval.hpp"
+#include "core/segmentation/segment.hpp"
+#include "core/sensor/sensor_model.hpp"
+#include "core/simulation/world.hpp"
+
+namespace quoin {
+
+/// Which visible walls a segmenter must find: at least so many points and so long. Pieces of walls
+/// that are smaller are neither required nor false. The values are those of Nguyen et al. 2007.
+struct WorthFinding {
+  std::size_t min_points = 9;
+  double min_length = 0.5;  ///< [m]
+};
+
+/// The measures of Nguyen et al., "A comparison of line extraction algorithms using 2D range data
+/// for indoor mobile robotics", 2007.
+struct SegmentationQuality {
+  std::size_t scans = 0;
+  std::size_t true_segments = 0;
+  std::size_t found_segments = 0;
+  std::size_t matches = 0;
+  Interval true_positive_rate;   ///< matches / true segments
+  Interval false_positive_rate;  ///< (found - matches - too small to be required) / found
+  double alpha_stddev = 0.0;     ///< [rad] of the lines of matched segments from the true ones
+  double r_stddev = 0.0;         ///< [m]
+};
+
+/// Segments one scan from the start of each world's path, `scans_per_world` times with new noise.
+/// The sensor model given to the segmenter is the true one.
+[[nodiscard]] SegmentationQuality judge_segmentation(
+    const Segmenter& segmenter, std::span<const World> worlds, const SensorModel& noise,
+    std::size_t scans_per_world, std::uint64_t seed, const WorthFinding& worth = {});
+
+}  // namespace quoin
