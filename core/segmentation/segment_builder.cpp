@@ -4,6 +4,7 @@
 
 #include "core/segmentation/merging.hpp"
 #include "core/segmentation/refinement.hpp"
+#include "core/segmentation/selection.hpp"
 
 namespace quoin {
 
@@ -13,6 +14,7 @@ SegmentBuilder::SegmentBuilder(const SegmentationParameters& parameters)
 void SegmentBuilder::start(const PointsView& points, const SensorModel& sensor) {
   pieces_.clear();
   cluster_ = 0;
+  sensor_ = sensor;
   tolerance_ = Tolerance(parameters_, sensor, points);
   closed_ = !breakpoints_.find(points, sensor, clusters_);
 }
@@ -36,15 +38,7 @@ void SegmentBuilder::finish(const PointsView& points, std::vector<Segment>& segm
   if (parameters_.merge) merge_collinear(points, tolerance_, pieces_);
   if (parameters_.refine) refine_boundaries(points, min_points, tolerance_, closed_, pieces_);
 
-  const double min_length_squared = parameters_.min_length * parameters_.min_length;
-  for (const Piece& piece : pieces_) {
-    const Segment& segment = piece.segment;
-    if (segment.size() < min_points) continue;
-    const double dx = points.x[segment.end - 1] - points.x[segment.begin];
-    const double dy = points.y[segment.end - 1] - points.y[segment.begin];
-    const double length_squared = dx * dx + dy * dy;
-    if (length_squared >= min_length_squared && length_squared > 0.0) segments.push_back(segment);
-  }
+  select_lines(points, pieces_, parameters_, sensor_, tolerance_, segments);
 }
 
 }  // namespace quoin

@@ -39,6 +39,7 @@ class SegmentBuilder {
  private:
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
+  SensorModel sensor_;
   Tolerance tolerance_;
   std::vector<Segment> clusters_;
   std::vector<Piece> pieces_;

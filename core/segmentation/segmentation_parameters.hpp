@@ -14,7 +14,7 @@ struct SegmentationParameters {
   double split_distance = 0.05;  // [m]
   double noise_factor = 4.0;     // standard deviations
   int min_points = 6;
-  double min_length = 0.1;                        // [m]
+  double min_length = 0.2;                        // [m]
   double breakpoint_angle = 0.17453292519943295;  // [rad] 10 deg
   bool merge = true;
   bool refine = true;
@@ -30,8 +30,9 @@ struct SegmentationParameters {
                              "across the line, from the sensor model at the point's range"),
         field<Owner, int>(&P::min_points, "min_points", "", 2, 10000,
                           "segments with fewer points are dropped"),
-        field<Owner, double>(&P::min_length, "min_length", "m", 0.0, 100.0,
-                             "shorter segments are dropped"),
+        field<Owner, double>(
+            &P::min_length, "min_length", "m", 0.0, 100.0,
+            "shorter segments are dropped; half of it is enough beside one that is longer"),
         field<Owner, double>(
             &P::breakpoint_angle, "breakpoint_angle", "rad", 0.01, 1.5,
             "walls met at a smaller grazing angle fall apart; larger steps of the bearing break"),
