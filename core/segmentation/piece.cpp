@@ -48,10 +48,12 @@ void drop_small(std::size_t min_points, std::vector<Piece>& pieces) {
 }
 
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
-  for (Piece& piece : pieces) {
-    const Segment& segment = piece.segment;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool at_seam = i == 0 || i + 1 == pieces.size();
+    if (!at_seam && !pieces[i].joined && !pieces[i + 1].joined) continue;
+    const Segment& segment = pieces[i].segment;
     const std::size_t margin = std::min(left_out_at_ends, segment.size() / 4);
-    piece.fit =
+    pieces[i].fit =
         inner_fit(inverse_range_sums(points.subview(segment.begin + margin, segment.end - margin)));
   }
 }

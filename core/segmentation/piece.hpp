@@ -43,7 +43,8 @@ inline constexpr std::size_t fewest_points = 3;
 /// neighbours, unless a break of the surface is between them.
 void drop_small(std::size_t min_points, std::vector<Piece>& pieces);
 
-/// Fits a line to the inner points of each piece: those at the ends may be on the next wall.
+/// Fits a line to the inner points of each piece that may have a joined neighbour; points at the
+/// ends may be on that neighbour's wall.
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces);
 
 }  // namespace quoin

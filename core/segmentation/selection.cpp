@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/sensor/multiversion.hpp"
+
 namespace quoin {
 namespace {
 
@@ -15,26 +17,39 @@ struct Mean {
   double x, y;  // [m]
 };
 
-Mean mean_of(const PointsView& points, std::size_t begin, std::size_t end) {
+/// Means of the first and last quarters and of the half between them.
+struct Means {
+  Mean first, inner, last;
+};
+
+[[gnu::always_inline]] inline Mean mean_of(const double* __restrict x, const double* __restrict y,
+                                           std::size_t begin, std::size_t end) {
   Mean sum{0.0, 0.0};
   for (std::size_t i = begin; i < end; ++i) {
-    sum.x += points.x[i];
-    sum.y += points.y[i];
+    sum.x += x[i];
+    sum.y += y[i];
   }
-  const auto count = static_cast<double>(end - begin);
-  return {sum.x / count, sum.y / count};
+  const auto scale = 1.0 / static_cast<double>(end - begin);
+  return {sum.x * scale, sum.y * scale};
+}
+
+QUOIN_MULTIVERSION
+void find_means(const double* __restrict x, const double* __restrict y, std::size_t count,
+                Means& out) {
+  const std::size_t quarter = count / 4;
+  out.first = mean_of(x, y, 0, quarter);
+  out.inner = mean_of(x, y, quarter, count - quarter);
+  out.last = mean_of(x, y, count - quarter, count);
 }
 
 /// A bow of sagitta s over its chord has its inner half by s / 2 beside its two outer quarters, and
 /// the difference of those means has the variance 4 / n of a point's.
 bool is_bent(const PointsView& points, const Segment& segment, const NormalLine& chord,
              double length, const SensorModel& sensor) {
-  const std::size_t quarter = segment.size() / 4;
-  const Mean first = mean_of(points, segment.begin, segment.begin + quarter);
-  const Mean inner = mean_of(points, segment.begin + quarter, segment.end - quarter);
-  const Mean last = mean_of(points, segment.end - quarter, segment.end);
-  const double dx = inner.x - 0.5 * (first.x + last.x);
-  const double dy = inner.y - 0.5 * (first.y + last.y);
+  Means means;
+  find_means(&points.x[segment.begin], &points.y[segment.begin], segment.size(), means);
+  const double dx = means.inner.x - 0.5 * (means.first.x + means.last.x);
+  const double dy = means.inner.y - 0.5 * (means.first.y + means.last.y);
   const double sagitta = 2.0 * std::abs(chord.normal_x * dx + chord.normal_y * dy);
   if (!(sagitta > largest_bend * length)) return false;
 
@@ -58,7 +73,7 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
   const double squared = dx * dx + dy * dy;
   if (!(squared > 4.0 * tolerance.base)) return 0.0;
   // A bow within the tolerance is not deep enough to be bent when it is long.
-  if (largest_bend * largest_bend * squared > 4.0 * tolerance.largest) return squared;
+  if (largest_bend * largest_bend * squared > tolerance.largest) return squared;
   const double length = std::sqrt(squared);
   const NormalLine chord{-dy / length, dx / length, 0.0};
   const std::size_t middle = segment.begin + segment.size() / 2;

@@ -10,48 +10,46 @@
 namespace quoin {
 namespace {
 
-/// Largest measure(i) for i < count, and its place when it is more than 1. The maximum of each
-/// block is found by vector instructions; only the best block is searched, and most segments are
-/// straight and not searched at all.
+/// The largest of limit and all measure(i) for i < count, and its place when it is more than the
+/// limit. Most segments are straight: the maximum alone is found by vector instructions, and its
+/// place is searched for when it matters.
 template <class Measure>
-[[gnu::always_inline]] inline FarthestPoint largest_of(std::size_t count, const Measure& measure) {
-  constexpr std::size_t block = 32;
+[[gnu::always_inline]] inline FarthestPoint largest_of(std::size_t count, double limit,
+                                                       const Measure& measure) {
+  // Two maxima at a time: one would wait for itself.
+  const std::size_t half = count / 2;
   double largest = 0.0;
-  std::size_t best_begin = 0;
-  std::size_t begin = 0;
-  for (; begin + block <= count; begin += block) {
-    double largest_here = 0.0;
-    for (std::size_t i = begin; i < begin + block; ++i) {
-      const double value = measure(i);
-      largest_here = value > largest_here ? value : largest_here;
-    }
-    best_begin = largest_here > largest ? begin : best_begin;
-    largest = largest_here > largest ? largest_here : largest;
-  }
-  double largest_here = 0.0;
-  for (std::size_t i = begin; i < count; ++i) {
+  double other = 0.0;
+  for (std::size_t i = 0; i < half; ++i) {
     const double value = measure(i);
-    largest_here = value > largest_here ? value : largest_here;
+    const double other_value = measure(half + i);
+    largest = value > largest ? value : largest;
+    other = other_value > other ? other_value : other;
   }
-  best_begin = largest_here > largest ? begin : best_begin;
-  largest = largest_here > largest ? largest_here : largest;
-  if (largest <= 1.0) return {0, largest};
+  if (count > 2 * half) {
+    const double value = measure(count - 1);
+    largest = value > largest ? value : largest;
+  }
+  largest = other > largest ? other : largest;
+  if (largest <= limit) return {0, largest};
 
-  // Vector and scalar instructions may round differently; the last point of the block is the rest.
+  // The first that is as large; instructions may round differently from loop to loop.
   const double almost = largest * (1.0 - 1e-12);
-  const std::size_t end = best_begin + block < count ? best_begin + block : count;
-  std::size_t index = best_begin;
-  while (index + 1 < end && measure(index) < almost) ++index;
-  return {index, largest};
+  const auto none = static_cast<double>(count);
+  double first = none;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = measure(i) >= almost ? static_cast<double>(i) : none;
+    first = place < first ? place : first;
+  }
+  return {static_cast<std::size_t>(first), largest};
 }
 
+/// Squared distances in units of the squared length of the normal, which need not be one.
 QUOIN_MULTIVERSION
 void farthest_fixed(const double* __restrict x, const double* __restrict y, std::size_t count,
-                    NormalLine line, double scale, FarthestPoint& out) {
-  const double normal_x = line.normal_x * scale;
-  const double normal_y = line.normal_y * scale;
-  const double offset = line.offset * scale;
-  out = largest_of(count, [=](std::size_t i) {
+                    double normal_x, double normal_y, double offset, double limit,
+                    FarthestPoint& out) {
+  out = largest_of(count, limit, [=](std::size_t i) {
     const double distance = normal_x * x[i] + normal_y * y[i] - offset;
     return distance * distance;
   });
@@ -62,7 +60,7 @@ void farthest_raised(const double* __restrict range, const double* __restrict co
                      const double* __restrict sine, const double* __restrict x,
                      const double* __restrict y, std::size_t count, NormalLine line,
                      Tolerance tolerance, FarthestPoint& out) {
-  out = largest_of(count, [=](std::size_t i) {
+  out = largest_of(count, 1.0, [=](std::size_t i) {
     const double distance = line.normal_x * x[i] + line.normal_y * y[i] - line.offset;
     const double cos_phi = cosine[i] * line.normal_x + sine[i] * line.normal_y;
     const double sin_phi = sine[i] * line.normal_x - cosine[i] * line.normal_y;
@@ -72,10 +70,17 @@ void farthest_raised(const double* __restrict range, const double* __restrict co
 
 QUOIN_MULTIVERSION
 void farthest_from_first(const double* __restrict x, const double* __restrict y, std::size_t count,
-                         double scale, FarthestPoint& out) {
-  out = largest_of(count, [=](std::size_t i) {
-    return scale * ((x[i] - x[0]) * (x[i] - x[0]) + (y[i] - y[0]) * (y[i] - y[0]));
+                         double limit, FarthestPoint& out) {
+  out = largest_of(count, limit, [=](std::size_t i) {
+    return (x[i] - x[0]) * (x[i] - x[0]) + (y[i] - y[0]) * (y[i] - y[0]);
   });
+}
+
+QUOIN_MULTIVERSION
+void find_largest(const double* values, std::size_t count, double& out) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) largest = values[i] > largest ? values[i] : largest;
+  out = largest;
 }
 
 double square(double value) { return value * value; }
@@ -88,7 +93,7 @@ Tolerance::Tolerance(const SegmentationParameters& parameters, const SensorModel
       range(square(parameters.noise_factor * sensor.range_stddev)),
       bearing(square(parameters.noise_factor * sensor.bearing_stddev)) {
   double farthest = 0.0;
-  for (const double r : points.range) farthest = r > farthest ? r : farthest;
+  find_largest(points.range.data(), points.size(), farthest);
   largest = std::max({base, range, bearing * farthest * farthest});
 }
 
@@ -98,28 +103,42 @@ FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
   if (tolerance.raised()) {
     farthest_raised(points.range.data(), points.cosine.data(), points.sine.data(), points.x.data(),
                     points.y.data(), points.size(), line, tolerance, farthest);
-  } else {
-    farthest_fixed(points.x.data(), points.y.data(), points.size(), line,
-                   1.0 / std::sqrt(tolerance.base), farthest);
+    return farthest;
   }
+  farthest_fixed(points.x.data(), points.y.data(), points.size(), line.normal_x, line.normal_y,
+                 line.offset, tolerance.base, farthest);
+  farthest.excess /= tolerance.base;
   return farthest;
 }
 
 FarthestPoint farthest_from_chord(const PointsView& points, const Tolerance& tolerance) {
   const double dx = points.x.back() - points.x.front();
   const double dy = points.y.back() - points.y.front();
-  const double length = std::sqrt(dx * dx + dy * dy);
-  if (length > 1e-9) {
-    NormalLine chord{-dy / length, dx / length, 0.0};
-    chord.offset = chord.normal_x * points.x.front() + chord.normal_y * points.y.front();
-    const FarthestPoint farthest = farthest_from(chord, points, tolerance);
-    if (farthest.excess * tolerance.largest <= length * length) return farthest;
+  const double squared = dx * dx + dy * dy;
+  FarthestPoint farthest;
+  if (squared > 1e-18) {
+    double distance_squared = 0.0;
+    if (tolerance.raised()) {
+      const double scale = 1.0 / std::sqrt(squared);
+      NormalLine chord{-dy * scale, dx * scale, 0.0};
+      chord.offset = chord.normal_x * points.x.front() + chord.normal_y * points.y.front();
+      farthest = farthest_from(chord, points, tolerance);
+      distance_squared = farthest.excess * tolerance.largest;
+    } else {
+      // No root: the normal is as long as the chord.
+      farthest_fixed(points.x.data(), points.y.data(), points.size(), -dy, dx,
+                     dx * points.y.front() - dy * points.x.front(), squared * tolerance.base,
+                     farthest);
+      if (farthest.index == 0 && tolerance.base <= squared) return {};
+      distance_squared = farthest.excess / squared;
+      farthest.excess = distance_squared / tolerance.base;
+    }
+    if (distance_squared <= squared) return farthest;
   }
   // The contour of a whole room begins and ends at one place: the direction of so short a chord is
   // noise, and all points of a wall that it happens to be parallel to are equally far from it.
-  FarthestPoint farthest;
-  farthest_from_first(points.x.data(), points.y.data(), points.size(), 1.0 / tolerance.largest,
-                      farthest);
+  farthest_from_first(points.x.data(), points.y.data(), points.size(), tolerance.largest, farthest);
+  farthest.excess /= tolerance.largest;
   return farthest;
 }
 

@@ -59,8 +59,9 @@ struct FarthestPoint {
 [[nodiscard]] FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
                                           const Tolerance& tolerance);
 
-/// The same for the chord between the first and the last of the points; from the first point when
-/// the chord is shorter than the distance from it.
+/// The point most beyond its tolerance from the chord between the first and the last of the points,
+/// or zero when there is none; from the first point when the chord is shorter than the distance
+/// from it.
 [[nodiscard]] FarthestPoint farthest_from_chord(const PointsView& points,
                                                 const Tolerance& tolerance);
 
