@@ -8,7 +8,7 @@
 namespace quoin {
 namespace {
 
-struct Moments {
+struct OriginMoments {
   double x = 0.0;
   double y = 0.0;
   double xx = 0.0;
@@ -18,8 +18,8 @@ struct Moments {
 
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict x, const double* __restrict y, std::size_t count,
-            Moments& out) {
-  Moments sums;
+            OriginMoments& out) {
+  OriginMoments sums;
   for (std::size_t i = 0; i < count; ++i) {
     sums.x += x[i];
     sums.y += y[i];
@@ -83,7 +83,7 @@ Symmetric2 common_influence(const PointsView& points, double a, double b, double
 
 FitResult Utls::operator()(const PointsView& points, const SensorModel& sensor) const {
   if (points.size() < 2) return FitResult::failed(FitFailure::too_few_points);
-  Moments sums;
+  OriginMoments sums;
   add_up(points.x.data(), points.y.data(), points.size(), sums);
   const auto line = solve_inverse_line({sums.xx, sums.xy, sums.yy}, sums.x, sums.y);
   if (!line) return FitResult::failed(reason_of_singularity(points));
