@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/fitting/moments.hpp"
+#include "core/fitting/point_influence.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/multiversion.hpp"
 
@@ -55,45 +56,53 @@ void add_up(const double* __restrict u, const double* __restrict v, const double
   out = sums;
 }
 
-/// Sums of the outer products of the influences on (spread * slope, weight * intercept). Normal
-/// equations: sum w e = 0 and sum w xi e = 0 with e the residual of v and xi = u - mean, so a point
-/// displaced by (du, dv) with its weight changed by dw moves the intercept by f = w (dv - slope du)
-/// + dw e and the slope by xi f + w e du.
+/// What the influence of a point depends on besides the point.
+struct Regression {
+  double slope, mean, intercept, turn, range_weight, bearing_weight;
+};
+
+/// Influences of one point on (spread * slope, weight * intercept). Normal equations: sum w e = 0
+/// and sum w xi e = 0 with e the residual of v and xi = u - mean, so a point displaced by (du, dv)
+/// with its weight changed by dw moves the intercept by f = w (dv - slope du) + dw e and the slope
+/// by xi f + w e du.
+template <bool weighted>
+inline PointInfluence influence_of(double u, double v, double u_ray, double v_ray, double range,
+                                   const Regression& fit) {
+  double w = 1.0;
+  double w_range = 0.0;
+  double w_bearing = 0.0;
+  if constexpr (weighted) {
+    const double inverse = 1.0 / range;
+    const double across = fit.range_weight * inverse * inverse;
+    w = across * u_ray * u_ray + fit.bearing_weight * v_ray * v_ray;
+    w_range = -2.0 * across * inverse * u_ray * u_ray;
+    w_bearing = 2.0 * fit.turn * u_ray * v_ray * (fit.bearing_weight - across);
+  }
+  const double xi = u - fit.mean;
+  const double e = v - fit.intercept - fit.slope * xi;
+  const double range_intercept = w * (v_ray - fit.slope * u_ray) + w_range * e;
+  const double bearing_intercept = w * fit.turn * (u + fit.slope * v) + w_bearing * e;
+  return {xi * range_intercept + w * e * u_ray, range_intercept,
+          xi * bearing_intercept - w * e * fit.turn * v, bearing_intercept};
+}
+
 QUOIN_MULTIVERSION
-void add_up_influences(const Axes& axes, const double* __restrict range, std::size_t count,
-                       bool weighted, const AxisRegression& fit, const WeightVariances& weights,
-                       double range_variance, double bearing_variance, Symmetric2& out) {
-  const double* __restrict u = axes.u;
-  const double* __restrict v = axes.v;
-  const double* __restrict u_ray = axes.u_ray;
-  const double* __restrict v_ray = axes.v_ray;
-  const double turn = axes.turn;
-  const double slope = fit.slope;
-  const double mean = fit.mean;
-  const double intercept = fit.intercept;
-  const double for_range = weights.range;
-  const double for_bearing = weights.bearing;
+void add_up_influences(const double* __restrict u, const double* __restrict v,
+                       const double* __restrict u_ray, const double* __restrict v_ray,
+                       const double* __restrict range, std::size_t count, bool weighted,
+                       Regression fit, double range_variance, double bearing_variance,
+                       Symmetric2& out) {
   Symmetric2 sums;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double inverse = weighted ? 1.0 / range[i] : 0.0;
-    const double cross = for_range * inverse * inverse;
-    const double w =
-        weighted ? cross * u_ray[i] * u_ray[i] + for_bearing * v_ray[i] * v_ray[i] : 1.0;
-    const double w_range = -2.0 * cross * inverse * u_ray[i] * u_ray[i];
-    const double w_bearing =
-        weighted ? 2.0 * turn * u_ray[i] * v_ray[i] * (for_bearing - cross) : 0.0;
-    const double xi = u[i] - mean;
-    const double e = v[i] - intercept - slope * xi;
-    const double range_intercept = w * (v_ray[i] - slope * u_ray[i]) + w_range * e;
-    const double range_slope = xi * range_intercept + w * e * u_ray[i];
-    const double bearing_intercept = w * turn * (u[i] + slope * v[i]) + w_bearing * e;
-    const double bearing_slope = xi * bearing_intercept - w * e * turn * v[i];
-    sums.xx += range_variance * range_slope * range_slope +
-               bearing_variance * bearing_slope * bearing_slope;
-    sums.xy += range_variance * range_slope * range_intercept +
-               bearing_variance * bearing_slope * bearing_intercept;
-    sums.yy += range_variance * range_intercept * range_intercept +
-               bearing_variance * bearing_intercept * bearing_intercept;
+  if (weighted) {
+    for (std::size_t i = 0; i < count; ++i) {
+      add_noise(sums, influence_of<true>(u[i], v[i], u_ray[i], v_ray[i], range[i], fit),
+                range_variance, bearing_variance);
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      add_noise(sums, influence_of<false>(u[i], v[i], u_ray[i], v_ray[i], 1.0, fit), range_variance,
+                bearing_variance);
+    }
   }
   out = sums;
 }
@@ -157,11 +166,15 @@ AxisRegression fit_axis(const PointsView& points, AxisWeights weights,
 
 Symmetric2 axis_influence(const PointsView& points, AxisWeights weights, const AxisRegression& fit,
                           const SensorModel& sensor) {
+  const Axes axes(points, fit.y_on_x);
+  const WeightVariances variances(sensor);
   Symmetric2 sums;
-  add_up_influences(Axes(points, fit.y_on_x), points.range.data(), points.size(),
-                    weights == AxisWeights::conditional, fit, WeightVariances(sensor),
-                    sensor.range_stddev * sensor.range_stddev,
-                    sensor.bearing_stddev * sensor.bearing_stddev, sums);
+  add_up_influences(
+      axes.u, axes.v, axes.u_ray, axes.v_ray, points.range.data(), points.size(),
+      weights == AxisWeights::conditional,
+      {fit.slope, fit.mean, fit.intercept, axes.turn, variances.range, variances.bearing},
+      sensor.range_stddev * sensor.range_stddev, sensor.bearing_stddev * sensor.bearing_stddev,
+      sums);
   const double s = 1.0 / fit.spread;
   const double w = 1.0 / fit.weight;
   return {sums.xx * s * s, sums.xy * s * w, sums.yy * w * w};

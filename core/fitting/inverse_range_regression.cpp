@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/fitting/point_influence.hpp"
 #include "core/sensor/multiversion.hpp"
 
 namespace quoin {
@@ -32,9 +33,6 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
 /// fitted inverse range with bearing:
 ///   range:   -(c, s) z^2            bearing:  (-s, c) e - (c, s) d
 /// Exact derivatives: WCTLS eq. (14) and (15) with the weights differentiated, times M / c_w.
-struct PointInfluence {
-  double range_x, range_y, bearing_x, bearing_y;
-};
 inline PointInfluence influence_of(double c, double s, double range, double a, double b) {
   const double z = 1.0 / range;
   const double e = z - (c * a + s * b);
@@ -48,13 +46,8 @@ void add_up_influences(const double* __restrict cosine, const double* __restrict
                        double range_variance, double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   for (std::size_t i = 0; i < count; ++i) {
-    const PointInfluence p = influence_of(cosine[i], sine[i], range[i], a, b);
-    sums.xx +=
-        range_variance * p.range_x * p.range_x + bearing_variance * p.bearing_x * p.bearing_x;
-    sums.xy +=
-        range_variance * p.range_x * p.range_y + bearing_variance * p.bearing_x * p.bearing_y;
-    sums.yy +=
-        range_variance * p.range_y * p.range_y + bearing_variance * p.bearing_y * p.bearing_y;
+    add_noise(sums, influence_of(cosine[i], sine[i], range[i], a, b), range_variance,
+              bearing_variance);
   }
   out = sums;
 }
@@ -80,20 +73,14 @@ Symmetric2 inverse_range_influence(const PointsView& points, const Eigen::Vector
 
 Symmetric2 inverse_range_common_influence(const PointsView& points, const Eigen::Vector2d& q,
                                           const SensorModel& sensor) {
-  PointInfluence sum{};
+  PointInfluence sum;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const PointInfluence p =
-        influence_of(points.cosine[i], points.sine[i], points.range[i], q.x(), q.y());
-    sum.range_x += p.range_x;
-    sum.range_y += p.range_y;
-    sum.bearing_x += p.bearing_x;
-    sum.bearing_y += p.bearing_y;
+    sum += influence_of(points.cosine[i], points.sine[i], points.range[i], q.x(), q.y());
   }
-  const double vr = sensor.range_stddev * sensor.range_stddev;
-  const double vb = sensor.bearing_stddev * sensor.bearing_stddev;
-  return {vr * sum.range_x * sum.range_x + vb * sum.bearing_x * sum.bearing_x,
-          vr * sum.range_x * sum.range_y + vb * sum.bearing_x * sum.bearing_y,
-          vr * sum.range_y * sum.range_y + vb * sum.bearing_y * sum.bearing_y};
+  Symmetric2 covariance;
+  add_noise(covariance, sum, sensor.range_stddev * sensor.range_stddev,
+            sensor.bearing_stddev * sensor.bearing_stddev);
+  return covariance;
 }
 
 FitFailure solve_inverse_range(const PointsView& points, InverseLine& line) {

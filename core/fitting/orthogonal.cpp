@@ -5,52 +5,56 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/point_influence.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/multiversion.hpp"
 
 namespace quoin {
 namespace {
 
-/// Sums over the points of the outer products of their influences on (alpha, offset at the mean),
-/// still to be divided by the factors that all points share.
+/// Influences of one point on (alpha, offset at the mean), still to be divided by the factors that
+/// all points share.
 ///
 /// With d and t the offsets of a point from the mean across and along the line, and dn, dt its
-/// displacement by a noise: W d(offset) = w dn + w' d, and (along - across) d(alpha) = -(w (dn t +
-/// dt d) + w' d t). Range noise displaces by (cos, sin) of the incidence angle and changes w,
-/// bearing noise by (-t, d) counted from the sensor.
+/// displacement by a noise: W d(offset) = w dn + w' d, and (across - along) d(alpha) = w (dn t + dt
+/// d) + w' d t. Range noise displaces by (cos, sin) of the incidence angle and changes w, bearing
+/// noise by (-t, d) counted from the sensor.
+template <bool weighted>
+inline PointInfluence influence_of(double cosine, double sine, double x, double y, double range,
+                                   double nx, double ny, double mean_x, double mean_y) {
+  const double inverse = weighted ? 1.0 / range : 1.0;
+  const double w = inverse * inverse;
+  const double w_slope = weighted ? -2.0 * w * inverse : 0.0;
+  const double d = (x - mean_x) * nx + (y - mean_y) * ny;
+  const double t = (y - mean_y) * nx - (x - mean_x) * ny;
+  const double cos_phi = cosine * nx + sine * ny;
+  const double sin_phi = sine * nx - cosine * ny;
+  const double from_foot = y * nx - x * ny;
+  const double from_sensor = x * nx + y * ny;
+  return {w * (cos_phi * t + sin_phi * d) + w_slope * d * t, w * cos_phi + w_slope * d,
+          w * (from_sensor * d - from_foot * t), -w * from_foot};
+}
+
 QUOIN_MULTIVERSION
 void add_up_influences(const double* __restrict cosine, const double* __restrict sine,
                        const double* __restrict x, const double* __restrict y,
-                       const double* __restrict range, std::size_t count, bool weighted,
-                       const OrthogonalLine& fit, double range_variance, double bearing_variance,
-                       Symmetric2& out) {
-  const double nx = fit.normal_x;
-  const double ny = fit.normal_y;
-  const double mean_x = fit.moments.mean_x;
-  const double mean_y = fit.moments.mean_y;
+                       const double* __restrict range, std::size_t count, bool weighted, double nx,
+                       double ny, double mean_x, double mean_y, double range_variance,
+                       double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double inverse = weighted ? 1.0 / range[i] : 1.0;
-    const double w = inverse * inverse;
-    const double w_slope = weighted ? -2.0 * w * inverse : 0.0;
-    const double dx = x[i] - mean_x;
-    const double dy = y[i] - mean_y;
-    const double d = dx * nx + dy * ny;
-    const double t = dy * nx - dx * ny;
-    const double cos_phi = cosine[i] * nx + sine[i] * ny;
-    const double sin_phi = sine[i] * nx - cosine[i] * ny;
-    const double range_alpha = w * (cos_phi * t + sin_phi * d) + w_slope * d * t;
-    const double range_offset = w * cos_phi + w_slope * d;
-    const double from_foot = y[i] * nx - x[i] * ny;
-    const double from_sensor = x[i] * nx + y[i] * ny;
-    const double bearing_alpha = w * (from_sensor * d - from_foot * t);
-    const double bearing_offset = -w * from_foot;
-    sums.xx += range_variance * range_alpha * range_alpha +
-               bearing_variance * bearing_alpha * bearing_alpha;
-    sums.xy += range_variance * range_alpha * range_offset +
-               bearing_variance * bearing_alpha * bearing_offset;
-    sums.yy += range_variance * range_offset * range_offset +
-               bearing_variance * bearing_offset * bearing_offset;
+  if (weighted) {
+    for (std::size_t i = 0; i < count; ++i) {
+      add_noise(
+          sums,
+          influence_of<true>(cosine[i], sine[i], x[i], y[i], range[i], nx, ny, mean_x, mean_y),
+          range_variance, bearing_variance);
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      add_noise(sums,
+                influence_of<false>(cosine[i], sine[i], x[i], y[i], 1.0, nx, ny, mean_x, mean_y),
+                range_variance, bearing_variance);
+    }
   }
   out = sums;
 }
@@ -100,8 +104,8 @@ Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights wei
   Symmetric2 sums;
   add_up_influences(points.cosine.data(), points.sine.data(), points.x.data(), points.y.data(),
                     points.range.data(), points.size(),
-                    weights == PointWeights::inverse_square_range, fit, range_variance,
-                    bearing_variance, sums);
+                    weights == PointWeights::inverse_square_range, fit.normal_x, fit.normal_y,
+                    fit.moments.mean_x, fit.moments.mean_y, range_variance, bearing_variance, sums);
   // r = offset at the mean + (tangential coordinate of the mean) d(alpha).
   const double alpha_scale = -1.0 / (fit.along - fit.across);
   const double offset_scale = 1.0 / fit.moments.weight;
