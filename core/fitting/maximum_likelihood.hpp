@@ -18,7 +18,8 @@ class MaximumLikelihood {
   static constexpr const char* name = "maximum_likelihood";
   static constexpr const char* description =
       "iterated fit on the noise model of each ray; reaches the Cramer-Rao bound";
-  static constexpr const char* source = "Fisher scoring on the noise model of ranges and bearings";
+  static constexpr const char* source =
+      "Newton iteration on the noise model of ranges and bearings";
 
   using Parameters = CovarianceParameters;
 
