@@ -44,7 +44,8 @@ enum class FitFailure {
   none,
   too_few_points,  ///< fewer than two, or than three where the residuals give the covariance
   degenerate,      ///< the points do not determine a line, such as all equal
-  through_sensor,  ///< the line passes through the sensor, where this method is not defined
+  through_sensor,  ///< the line passes through the sensor, or too near it for the bearing noise,
+                   ///< where this method is not defined
   not_finite,      ///< the numbers left the range of double
   not_converged,   ///< an iteration found no end
 };

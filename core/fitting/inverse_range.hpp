@@ -9,8 +9,9 @@ namespace quoin {
 /// Regression of the inverse range on (cos, sin) of the bearing, like WTLS and WCTLS, but each ray
 /// weighted with the variance of its inverse range: 1 / (sigma_rho^2 z^4 + sigma_theta^2 z'^2) with
 /// z and its slope z' with the bearing taken from the line of equal weights, and 1 / rho taken to
-/// first order about z, without which the regression is biased. As good as maximum likelihood, of
-/// which it is the first iteration; a second reweighting changes nothing that matters.
+/// first order about z, without which the regression is biased. As good as maximum likelihood
+/// without an iteration: a second reweighting changes nothing that matters. Not defined for lines
+/// so near the sensor that bearing noise is not small against the bearings of the segment.
 ///
 /// The covariance is the Cramer-Rao bound in both modes: no paper prints another one.
 class InverseRange {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fitting/offset_at_mean.hpp"
 #include "core/fitting/point_influence.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/multiversion.hpp"
@@ -106,19 +107,11 @@ Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights wei
                     points.range.data(), points.size(),
                     weights == PointWeights::inverse_square_range, fit.normal_x, fit.normal_y,
                     fit.moments.mean_x, fit.moments.mean_y, range_variance, bearing_variance, sums);
-  // r = offset at the mean + (tangential coordinate of the mean) d(alpha).
-  const double alpha_scale = -1.0 / (fit.along - fit.across);
-  const double offset_scale = 1.0 / fit.moments.weight;
-  const double t = fit.tangential_mean();
-  const double alpha_alpha = sums.xx * alpha_scale * alpha_scale;
-  const double alpha_offset = sums.xy * alpha_scale * offset_scale;
-  const double offset_offset = sums.yy * offset_scale * offset_scale;
-  Eigen::Matrix2d covariance;
-  covariance(0, 0) = alpha_alpha;
-  covariance(0, 1) = alpha_offset + t * alpha_alpha;
-  covariance(1, 0) = covariance(0, 1);
-  covariance(1, 1) = offset_offset + 2.0 * t * alpha_offset + t * t * alpha_alpha;
-  return covariance;
+  const double alpha = -1.0 / (fit.along - fit.across);
+  const double offset = 1.0 / fit.moments.weight;
+  return from_offset_at_mean(
+      {sums.xx * alpha * alpha, sums.xy * alpha * offset, sums.yy * offset * offset},
+      fit.tangential_mean());
 }
 
 }  // namespace quoin

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/fitting/pca.hpp"
 
+#include "core/fitting/offset_at_mean.hpp"
 #include "core/fitting/orthogonal.hpp"
 
 namespace quoin {
@@ -9,14 +10,8 @@ namespace {
 
 Eigen::Matrix2d covariance_from_residuals(const OrthogonalLine& fit) {
   const double variance = fit.across / (fit.moments.weight - 2.0);
-  const double t = fit.tangential_mean();
-  const double alpha_alpha = variance / fit.along;
-  Eigen::Matrix2d covariance;
-  covariance(0, 0) = alpha_alpha;
-  covariance(0, 1) = t * alpha_alpha;
-  covariance(1, 0) = covariance(0, 1);
-  covariance(1, 1) = variance / fit.moments.weight + t * t * alpha_alpha;
-  return covariance;
+  return from_offset_at_mean({variance / fit.along, 0.0, variance / fit.moments.weight},
+                             fit.tangential_mean());
 }
 
 }  // namespace

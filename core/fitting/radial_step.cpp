@@ -13,6 +13,7 @@ struct NormalEquations {
   Symmetric2 information;
   double gradient_x = 0.0;
   double gradient_y = 0.0;
+  double bearing_share = 0.0;  ///< sum of the shares of bearing noise in the variances
 };
 
 /// z = A c + B s and its slope with the bearing d = B c - A s give range - 1 / z the variance
@@ -25,6 +26,7 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
   Symmetric2 information;
   double gradient_x = 0.0;
   double gradient_y = 0.0;
+  double bearing_share = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double c = cosine[i];
     const double s = sine[i];
@@ -32,7 +34,8 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
     const double d = c * b - s * a;
     const double guarded = z > smallest ? z : smallest;
     const double square = guarded * guarded;
-    const double w = 1.0 / (range_variance * square * square + bearing_variance * d * d);
+    const double from_bearing = bearing_variance * d * d;
+    const double w = 1.0 / (range_variance * square * square + from_bearing);
     const double residual = guarded * (1.0 - z * range[i]);
     const double wc = w * c;
     const double ws = w * s;
@@ -41,8 +44,9 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
     information.yy += ws * s;
     gradient_x += wc * residual;
     gradient_y += ws * residual;
+    bearing_share += w * from_bearing;
   }
-  out = {information, gradient_x, gradient_y};
+  out = {information, gradient_x, gradient_y, bearing_share};
 }
 
 }  // namespace
@@ -51,7 +55,6 @@ RadialStep radial_step(const PointsView& points, const Eigen::Vector2d& q,
                        const WeightVariances& variances) {
   // A ray along the line never meets it; 88 degrees is as far as the expansion is of use.
   constexpr double smallest_cosine = 0.03;
-  constexpr double rounding = 1e-13;
   const double norm = q.norm();
   NormalEquations equations;
   add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), q.x(), q.y(),
@@ -64,13 +67,24 @@ RadialStep radial_step(const PointsView& points, const Eigen::Vector2d& q,
     step.failure = reason_of_singularity(points);
     return step;
   }
-  step.squared_length = change->q.x() * equations.gradient_x + change->q.y() * equations.gradient_y;
+  // Noise of the bearings over their variance along the segment attenuates the slope of the fit by
+  // that ratio. In standard deviations of the fit, squared, the bias is about the ratio times the
+  // sum of the shares that bearing noise has in the variances of the points.
+  const double weight = equations.information.xx + equations.information.yy;
+  const double determinant = equations.information.xx * equations.information.yy -
+                             equations.information.xy * equations.information.xy;
+  const double ratio = variances.bearing * weight * weight / determinant;
+  const double squared_bias = ratio * equations.bearing_share;
+  const auto count = static_cast<double>(points.size());
+  if (ratio > 0.5 || (squared_bias > 1.0 && squared_bias > 0.01 * count)) {
+    step.failure = FitFailure::through_sensor;
+    return step;
+  }
   // Applied as changes of r and alpha. The ranges are linear in r, whereas q overshoots when the
   // line is much too near.
   const Eigen::Vector2d normal = q / norm;
   const double outward = change->q.dot(normal) / norm;  // -dr / r
   const double angle = (normal.x() * change->q.y() - normal.y() * change->q.x()) / norm;
-  step.smaller_than_rounding = std::abs(outward) + std::abs(angle) < rounding;
   if (!(outward < 1.0)) {
     step.failure = std::isfinite(outward) ? FitFailure::through_sensor : FitFailure::not_finite;
     return step;

@@ -16,12 +16,13 @@ namespace quoin {
 /// It is a step of weighted regression of the inverse range as well, with 1 / range taken to first
 /// order about z: the second order makes the mean of 1 / range larger than the inverse of the mean
 /// and the regression biased.
+///
+/// Fails as `through_sensor` where bearing noise is not small against the bearings of the segment
+/// and would bias the regression, in which they have to be exact, beyond its standard deviation.
 struct RadialStep {
   FitFailure failure = FitFailure::none;
-  InverseLine line;             ///< with the inverse of `information`
-  Symmetric2 information;       ///< Fisher information of q about the line before the step [m^2]
-  double squared_length = 0.0;  ///< of the step, in standard deviations of the line
-  bool smaller_than_rounding = false;
+  InverseLine line;        ///< with the inverse of `information`
+  Symmetric2 information;  ///< Fisher information of q about the line before the step [m^2]
 };
 
 [[nodiscard]] RadialStep radial_step(const PointsView& points, const Eigen::Vector2d& q,

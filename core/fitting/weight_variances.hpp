@@ -9,15 +9,15 @@
 namespace quoin {
 
 /// Variances of range [m^2] and bearing [rad^2] to weight points with. A sensor model may say that
-/// there is no noise; a range is never taken to be better than a micrometre, so that the weights
-/// stay finite.
+/// there is no noise; a range is never taken to be better than a micrometre nor a bearing than a
+/// nanoradian, so that the weights stay finite.
 struct WeightVariances {
   double range;
   double bearing;
 
   explicit WeightVariances(const SensorModel& sensor)
       : range(std::max(sensor.range_stddev * sensor.range_stddev, 1e-12)),
-        bearing(sensor.bearing_stddev * sensor.bearing_stddev) {}
+        bearing(std::max(sensor.bearing_stddev * sensor.bearing_stddev, 1e-18)) {}
 };
 
 }  // namespace quoin

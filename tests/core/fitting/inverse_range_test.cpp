@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "tests/core/fitting/fitting_fixtures.hpp"
+#include "tests/core/fitting/near_wall.hpp"
 #include "tests/core/matchers.hpp"
 
 namespace quoin {
@@ -50,6 +51,21 @@ TEST(InverseRange, HasNotTheBiasOfTheMeanInverse) {
   EXPECT_LT(bias, -10.0 * error_of_mean);
   EXPECT_NEAR(plain, bias, 4.0 * error_of_mean);
   EXPECT_NEAR(weighted, 0.0, 4.0 * error_of_mean);
+}
+
+TEST(InverseRange, GivesNoLineWhereItWouldBeWrong) {
+  for (const SensorModel& sensor : {SensorModel{0.01, 0.00197, 0.0}, noisy}) {
+    EXPECT_LT(near_wall("inverse_range", 0.0, sensor).found, 0.01);
+    EXPECT_LT(near_wall("inverse_range", 0.01, sensor).found, 0.01);
+    for (const double r : {0.03, 0.1, 0.3, 1.0}) {
+      const NearWall wall = near_wall("inverse_range", r, sensor);
+      // What is given has a bias of one standard deviation at most, which adds one.
+      if (wall.found > 0.01) {
+        EXPECT_LT(wall.nees, 3.2) << r;
+      }
+    }
+    EXPECT_EQ(near_wall("inverse_range", 1.0, sensor).found, 1.0);
+  }
 }
 
 }  // namespace

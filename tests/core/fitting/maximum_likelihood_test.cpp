@@ -9,34 +9,52 @@
 #include <Eigen/LU>
 
 #include "tests/core/fitting/fitting_fixtures.hpp"
+#include "tests/core/fitting/near_wall.hpp"
 #include "tests/core/matchers.hpp"
 
 namespace quoin {
 namespace {
 
-/// Sum over the rays of derivative * residual / variance, in (alpha, r): zero at the estimate.
-Eigen::Vector2d score(const Line& line, const PointsView& p, const SensorModel& sensor) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+/// Half the sum of squared distances over their variances.
+double objective(double alpha, double r, const PointsView& p, const SensorModel& sensor) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double phi = p.bearing[i] - line.alpha;
-    const double range = line.r / std::cos(phi);
-    const double slope = range * std::tan(phi);
-    const double variance =
-        std::pow(sensor.range_stddev, 2) + std::pow(slope * sensor.bearing_stddev, 2);
-    sum += Eigen::Vector2d(-slope, 1.0 / std::cos(phi)) * ((p.range[i] - range) / variance);
+    const double phi = p.bearing[i] - alpha;
+    const double distance = p.range[i] * std::cos(phi) - r;
+    sum += 0.5 * distance * distance /
+           (std::pow(sensor.range_stddev * std::cos(phi), 2) +
+            std::pow(p.range[i] * sensor.bearing_stddev * std::sin(phi), 2));
   }
   return sum;
 }
 
-TEST(MaximumLikelihood, SolvesItsEquations) {
+TEST(MaximumLikelihood, IsAMinimum) {
   for (const Points& p : {first_wall(), second_wall()}) {
     const FitResult fit = make_fitter("maximum_likelihood")(p, noisy);
     ASSERT_TRUE(fit.ok());
-    const Eigen::Vector2d s = score(fit.estimate.line, p, noisy);
+    const auto [alpha, r] = fit.estimate.line;
+    const double h = 1e-5;
+    const Eigen::Vector2d gradient(
+        (objective(alpha + h, r, p, noisy) - objective(alpha - h, r, p, noisy)) / (2 * h),
+        (objective(alpha, r + h, p, noisy) - objective(alpha, r - h, p, noisy)) / (2 * h));
     // In standard deviations of the line; the iteration ends at 1e-7.
-    EXPECT_LT(std::sqrt(s.dot(fit.estimate.covariance * s)), 1e-6);
+    EXPECT_LT(std::sqrt(gradient.dot(fit.estimate.covariance * gradient)), 1e-5);
     EXPECT_GE(fit.iterations, 2);
     EXPECT_LE(fit.iterations, 10);
+    for (const double angle : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+      EXPECT_GT(objective(alpha + 0.1 * std::cos(angle), r + 0.1 * std::sin(angle), p, noisy),
+                objective(alpha, r, p, noisy));
+    }
+  }
+}
+
+TEST(MaximumLikelihood, IsConsistentForWallsThatRunPastTheSensor) {
+  for (const double r : {0.0, 0.01, 0.03, 0.1, 0.3, 1.0}) {
+    for (const SensorModel& sensor : {SensorModel{0.01, 0.00197, 0.0}, noisy}) {
+      const NearWall wall = near_wall("maximum_likelihood", r, sensor);
+      EXPECT_EQ(wall.found, 1.0) << r;
+      EXPECT_NEAR(wall.nees, 2.0, 0.18) << r;  // standard deviation 2 / sqrt(2000) = 0.045
+    }
   }
 }
 
