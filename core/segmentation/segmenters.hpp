@@ -4,10 +4,13 @@
 
 #include "core/methods/method_list.hpp"
 #include "core/segmentation/iepf.hpp"
+#include "core/segmentation/line_tracking.hpp"
+#include "core/segmentation/split_and_merge.hpp"
+#include "core/segmentation/successive_edge_following.hpp"
 
 namespace quoin {
 
 /// All segmenters, the default first.
-using Segmenters = MethodList<Iepf>;
+using Segmenters = MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking>;
 
 }  // namespace quoin
