@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segmentation/line_tracking.hpp"
 
+#include "core/segmentation/moments.hpp"
+#include "core/segmentation/runs.hpp"
+
 namespace quoin {
 namespace {
 
 // A line through fewer points says more about their noise than about the next one: what two points
 // predict has more than twice a point's deviation, what five predict about once.
 constexpr std::size_t fewest_to_predict = 5;
-constexpr double largest_outlier = 4.0;  // squared, in squared tolerances
-
-double excess_of(const NormalLine& line, const PointsView& points, std::size_t i,
-                 const Tolerance& tolerance) {
-  const double distance = line.normal_x * points.x[i] + line.normal_y * points.y[i] - line.offset;
-  return distance * distance / tolerance.squared(points, i, line.normal_x, line.normal_y);
-}
 
 }  // namespace
 

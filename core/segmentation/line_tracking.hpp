@@ -6,7 +6,6 @@
 #include <tuple>
 #include <vector>
 
-#include "core/segmentation/moments.hpp"
 #include "core/segmentation/segment_builder.hpp"
 
 namespace quoin {

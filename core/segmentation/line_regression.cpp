@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/line_regression.hpp"
+
+#include <algorithm>
+
+#include "core/segmentation/runs.hpp"
+
+namespace quoin {
+namespace {
+
+// A tolerance is at least so many standard deviations (the default noise_factor); walls that are
+// not as straight as a line are given the same margin.
+constexpr double deviations_in_tolerance = 4.0;
+constexpr std::size_t smallest_window = 3;
+
+double squared_residuals(const Moments& moments, const OrthogonalFit& fit) {
+  return moments.weight * fit.across;
+}
+
+double squared_residuals(const Moments& moments) {
+  const auto fit = orthogonal_fit(moments);
+  return fit ? squared_residuals(moments, *fit) : 0.0;
+}
+
+}  // namespace
+
+LineRegression::LineRegression(const Parameters& parameters)
+    : window_(static_cast<std::size_t>(parameters.window)),
+      change_(parameters.change),
+      builder_(parameters) {}
+
+void LineRegression::compare_windows(const PointsView& points, const Segment& cluster) {
+  for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+    distance_[i] = 0.0;
+    const std::size_t before = std::min(window_, i - cluster.begin);
+    const std::size_t behind = std::min(window_, cluster.end - i);
+    if (before < smallest_window || behind < smallest_window) continue;
+    const Moments first = moments_(i - before, i);
+    const Moments second = moments_(i, i + behind);
+    Moments both = first;
+    both += second;
+    const auto fit = orthogonal_fit(both);
+    if (!fit) continue;
+    const double rise =
+        squared_residuals(both, *fit) - squared_residuals(first) - squared_residuals(second);
+    distance_[i] = rise * deviations_in_tolerance * deviations_in_tolerance /
+                   builder_.tolerance().squared(points, i, fit->line.normal_x, fit->line.normal_y);
+  }
+}
+
+bool LineRegression::is_peak(const Segment& cluster, std::size_t i) const {
+  if (!(distance_[i] > change_)) return false;
+  const std::size_t reach = window_ / 2;
+  const std::size_t first = i - std::min(reach, i - cluster.begin);
+  const std::size_t end = std::min(i + reach + 1, cluster.end);
+  // The first of equals.
+  for (std::size_t k = first; k < i; ++k) {
+    if (distance_[k] >= distance_[i]) return false;
+  }
+  for (std::size_t k = i + 1; k < end; ++k) {
+    if (distance_[k] > distance_[i]) return false;
+  }
+  return true;
+}
+
+void LineRegression::add(const PointsView& points, const Segment& piece) {
+  // The windows are too short for a blunt corner: such a piece is not one line. Its longest run is
+  // taken out until all is straight; the runs are added from left to right.
+  stack_.clear();
+  stack_.push_back({piece, false});
+  while (!stack_.empty()) {
+    const Candidate candidate = stack_.back();
+    stack_.pop_back();
+    const Segment& range = candidate.segment;
+    if (candidate.straight) {
+      builder_.add(range);
+      continue;
+    }
+    const auto fit = orthogonal_fit(moments_(range.begin, range.end));
+    if (!fit) continue;
+    const Segment longest = longest_run(points, range, fit->line, builder_.tolerance());
+    const Segment run = refined_run(points, moments_, range, longest, builder_.tolerance());
+    if (run.size() < smallest_window) continue;
+    stack_.push_back({{run.end, range.end}, false});
+    stack_.push_back({run, true});
+    stack_.push_back({{range.begin, run.begin}, false});
+  }
+}
+
+void LineRegression::operator()(const PointsView& points, const SensorModel& sensor,
+                                std::vector<Segment>& segments) {
+  builder_.start(points, sensor);
+  moments_.assign(points);
+  distance_.resize(points.size());
+  for (const Segment& cluster : builder_.clusters()) {
+    compare_windows(points, cluster);
+    std::size_t begin = cluster.begin;
+    for (std::size_t i = cluster.begin + 1; i < cluster.end; ++i) {
+      if (!is_peak(cluster, i)) continue;
+      add(points, {begin, i});
+      begin = i;
+    }
+    add(points, {begin, cluster.end});
+  }
+  builder_.finish(points, segments);
+}
+
+}  // namespace quoin
