@@ -57,8 +57,9 @@ Segment refined_run(const PointsView& points, const PrefixMoments& moments, cons
     const auto fit = orthogonal_fit(moments(refined.begin, refined.end));
     if (!fit) break;
     const std::size_t middle = refined.begin + refined.size() / 2;
-    const Segment next = run_around(points, range, middle, fit->line, tolerance);
-    if (next.size() == 0 || next == refined) break;
+    Segment next = run_around(points, range, middle, fit->line, tolerance);
+    if (next.size() == 0) next = longest_run(points, refined, fit->line, tolerance);
+    if (next == refined) break;
     refined = next;
   }
   return refined;

@@ -29,7 +29,8 @@ inline constexpr double largest_outlier = 4.0;
 [[nodiscard]] Segment longest_run(const PointsView& points, const Segment& range,
                                   const NormalLine& line, const Tolerance& tolerance);
 
-/// The run that its own fitted line has around its middle, fitted again until it stays.
+/// The run that its own fitted line has around its middle, or the longest where the middle is off
+/// the line, fitted again until it stays.
 [[nodiscard]] Segment refined_run(const PointsView& points, const PrefixMoments& moments,
                                   const Segment& range, const Segment& run,
                                   const Tolerance& tolerance);

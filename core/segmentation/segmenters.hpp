@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/methods/method_list.hpp"
+#include "core/segmentation/hough.hpp"
 #include "core/segmentation/iepf.hpp"
 #include "core/segmentation/line_regression.hpp"
 #include "core/segmentation/line_tracking.hpp"
@@ -13,7 +14,7 @@
 namespace quoin {
 
 /// All segmenters, the default first.
-using Segmenters =
-    MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking, LineRegression, Ransac>;
+using Segmenters = MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking,
+                              LineRegression, Ransac, Hough>;
 
 }  // namespace quoin
