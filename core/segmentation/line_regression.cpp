@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/segmentation/peaks.hpp"
 #include "core/segmentation/runs.hpp"
 
 namespace quoin {
@@ -49,21 +50,6 @@ void LineRegression::compare_windows(const PointsView& points, const Segment& cl
   }
 }
 
-bool LineRegression::is_peak(const Segment& cluster, std::size_t i) const {
-  if (!(distance_[i] > change_)) return false;
-  const std::size_t reach = window_ / 2;
-  const std::size_t first = i - std::min(reach, i - cluster.begin);
-  const std::size_t end = std::min(i + reach + 1, cluster.end);
-  // The first of equals.
-  for (std::size_t k = first; k < i; ++k) {
-    if (distance_[k] >= distance_[i]) return false;
-  }
-  for (std::size_t k = i + 1; k < end; ++k) {
-    if (distance_[k] > distance_[i]) return false;
-  }
-  return true;
-}
-
 void LineRegression::add(const PointsView& points, const Segment& piece) {
   // The windows are too short for a blunt corner: such a piece is not one line. Its longest run is
   // taken out until all is straight; the runs are added from left to right.
@@ -77,10 +63,7 @@ void LineRegression::add(const PointsView& points, const Segment& piece) {
       builder_.add(range);
       continue;
     }
-    const auto fit = orthogonal_fit(moments_(range.begin, range.end));
-    if (!fit) continue;
-    const Segment longest = longest_run(points, range, fit->line, builder_.tolerance());
-    const Segment run = refined_run(points, moments_, range, longest, builder_.tolerance());
+    const Segment run = straight_run(points, moments_, range, builder_.tolerance());
     if (run.size() < smallest_window) continue;
     stack_.push_back({{run.end, range.end}, false});
     stack_.push_back({run, true});
@@ -97,7 +80,7 @@ void LineRegression::operator()(const PointsView& points, const SensorModel& sen
     compare_windows(points, cluster);
     std::size_t begin = cluster.begin;
     for (std::size_t i = cluster.begin + 1; i < cluster.end; ++i) {
-      if (!is_peak(cluster, i)) continue;
+      if (!is_peak(distance_, cluster, i, window_ / 2, change_)) continue;
       add(points, {begin, i});
       begin = i;
     }

@@ -52,7 +52,6 @@ class LineRegression {
   };
 
   void compare_windows(const PointsView& points, const Segment& cluster);
-  [[nodiscard]] bool is_peak(const Segment& cluster, std::size_t i) const;
   /// Adds what is straight of a piece.
   void add(const PointsView& points, const Segment& piece);
 

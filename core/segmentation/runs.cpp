@@ -65,4 +65,12 @@ Segment refined_run(const PointsView& points, const PrefixMoments& moments, cons
   return refined;
 }
 
+Segment straight_run(const PointsView& points, const PrefixMoments& moments, const Segment& piece,
+                     const Tolerance& tolerance) {
+  const auto fit = orthogonal_fit(moments(piece.begin, piece.end));
+  if (!fit) return {piece.begin, piece.begin};
+  const Segment longest = longest_run(points, piece, fit->line, tolerance);
+  return refined_run(points, moments, piece, longest, tolerance);
+}
+
 }  // namespace quoin

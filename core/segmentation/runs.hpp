@@ -35,4 +35,8 @@ inline constexpr double largest_outlier = 4.0;
                                   const Segment& range, const Segment& run,
                                   const Tolerance& tolerance);
 
+/// The straight run of a piece: the longest near the line of all its points, refined inside it.
+[[nodiscard]] Segment straight_run(const PointsView& points, const PrefixMoments& moments,
+                                   const Segment& piece, const Tolerance& tolerance);
+
 }  // namespace quoin

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/methods/method_list.hpp"
+#include "core/segmentation/hierarchical.hpp"
 #include "core/segmentation/hough.hpp"
 #include "core/segmentation/iepf.hpp"
 #include "core/segmentation/line_regression.hpp"
@@ -15,6 +16,6 @@ namespace quoin {
 
 /// All segmenters, the default first.
 using Segmenters = MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking,
-                              LineRegression, Ransac, Hough>;
+                              LineRegression, Ransac, Hough, Hierarchical>;
 
 }  // namespace quoin

@@ -76,5 +76,20 @@ TEST(RefinedRun, GrowsOverTheWall) {
   EXPECT_EQ(refined_run(points, moments, {50, 120}, {90, 90}, tolerance).size(), 0U);
 }
 
+TEST(StraightRun, IsWhatIsStraightOfAPiece) {
+  const Points whole = exact_wall_points({0.2, 2.0}, -0.8, 1.0, 200);
+  PrefixMoments moments;
+  moments.assign(whole);
+  EXPECT_EQ(straight_run(whole, moments, {10, 190}, five_centimetres(whole)), Segment(10, 190));
+
+  const Points bumped = wall_with({30, 31, 32, 33}, 0.3);
+  moments.assign(bumped);
+  EXPECT_EQ(straight_run(bumped, moments, {0, 40}, five_centimetres(bumped)), Segment(0, 30));
+
+  const Points equal = points_from({0.1, 0.1, 0.1}, {1.0, 1.0, 1.0});
+  moments.assign(equal);
+  EXPECT_EQ(straight_run(equal, moments, {0, 3}, five_centimetres(equal)).size(), 0U);
+}
+
 }  // namespace
 }  // namespace quoin
