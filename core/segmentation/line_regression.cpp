@@ -10,19 +10,7 @@
 namespace quoin {
 namespace {
 
-// A tolerance is at least so many standard deviations (the default noise_factor); walls that are
-// not as straight as a line are given the same margin.
-constexpr double deviations_in_tolerance = 4.0;
 constexpr std::size_t smallest_window = 3;
-
-double squared_residuals(const Moments& moments, const OrthogonalFit& fit) {
-  return moments.weight * fit.across;
-}
-
-double squared_residuals(const Moments& moments) {
-  const auto fit = orthogonal_fit(moments);
-  return fit ? squared_residuals(moments, *fit) : 0.0;
-}
 
 }  // namespace
 
@@ -31,22 +19,15 @@ LineRegression::LineRegression(const Parameters& parameters)
       change_(parameters.change),
       builder_(parameters) {}
 
-void LineRegression::compare_windows(const PointsView& points, const Segment& cluster) {
+void LineRegression::compare_windows(const Segment& cluster) {
   for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
     distance_[i] = 0.0;
     const std::size_t before = std::min(window_, i - cluster.begin);
     const std::size_t behind = std::min(window_, cluster.end - i);
     if (before < smallest_window || behind < smallest_window) continue;
-    const Moments first = moments_(i - before, i);
-    const Moments second = moments_(i, i + behind);
-    Moments both = first;
-    both += second;
-    const auto fit = orthogonal_fit(both);
-    if (!fit) continue;
-    const double rise =
-        squared_residuals(both, *fit) - squared_residuals(first) - squared_residuals(second);
-    distance_[i] = rise * deviations_in_tolerance * deviations_in_tolerance /
-                   builder_.tolerance().squared(points, i, fit->line.normal_x, fit->line.normal_y);
+    const auto joint =
+        joint_fit(moments_(i - before, i), moments_(i, i + behind), builder_.tolerance());
+    if (joint) distance_[i] = joint->distance;
   }
 }
 
@@ -77,7 +58,7 @@ void LineRegression::operator()(const PointsView& points, const SensorModel& sen
   moments_.assign(points);
   distance_.resize(points.size());
   for (const Segment& cluster : builder_.clusters()) {
-    compare_windows(points, cluster);
+    compare_windows(cluster);
     std::size_t begin = cluster.begin;
     for (std::size_t i = cluster.begin + 1; i < cluster.end; ++i) {
       if (!is_peak(distance_, cluster, i, window_ / 2, change_)) continue;

@@ -51,7 +51,7 @@ class LineRegression {
     bool straight = false;
   };
 
-  void compare_windows(const PointsView& points, const Segment& cluster);
+  void compare_windows(const Segment& cluster);
   /// Adds what is straight of a piece.
   void add(const PointsView& points, const Segment& piece);
 

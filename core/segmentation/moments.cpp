@@ -5,6 +5,14 @@
 #include <cmath>
 
 namespace quoin {
+namespace {
+
+double squared_residuals(const Moments& moments) {
+  const auto fit = orthogonal_fit(moments);
+  return fit ? moments.weight * fit->across : 0.0;
+}
+
+}  // namespace
 
 Moments& Moments::operator+=(const Moments& other) {
   weight += other.weight;
@@ -54,6 +62,22 @@ std::optional<OrthogonalFit> orthogonal_fit(const Moments& moments) {
   }
   fit.line = {-sine, cosine, fit.y * cosine - fit.x * sine};
   return fit;
+}
+
+std::optional<JointFit> joint_fit(const Moments& first, const Moments& second,
+                                  const Tolerance& tolerance) {
+  Moments both = first;
+  both += second;
+  const auto fit = orthogonal_fit(both);
+  if (!fit) return std::nullopt;
+  const double rise =
+      both.weight * fit->across - squared_residuals(first) - squared_residuals(second);
+  const double range = std::sqrt(fit->x * fit->x + fit->y * fit->y);
+  if (!(range > 0.0)) return std::nullopt;
+  const double cosine = fit->line.offset / range;
+  const double sine = (fit->y * fit->line.normal_x - fit->x * fit->line.normal_y) / range;
+  return JointFit{*fit, rise * deviations_in_tolerance * deviations_in_tolerance /
+                            tolerance.squared(range, cosine, sine)};
 }
 
 void PrefixMoments::assign(const PointsView& points) {

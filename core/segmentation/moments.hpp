@@ -44,6 +44,21 @@ struct OrthogonalFit {
 /// Nothing when the points have no direction: fewer than two, equal, or spread alike to all sides.
 [[nodiscard]] std::optional<OrthogonalFit> orthogonal_fit(const Moments& moments);
 
+/// A tolerance is at least so many standard deviations (the default noise_factor); walls that are
+/// not as straight as a line are given the same margin.
+inline constexpr double deviations_in_tolerance = 4.0;
+
+/// One line for two sets of points.
+struct JointFit {
+  OrthogonalFit fit;
+  double distance = 0.0;  ///< squared Mahalanobis distance of the two lines
+};
+
+/// For equal noise the distance is how much the sum of squared residuals rises, in variances, when
+/// one line must serve both; chi square with two degrees of freedom when they are the same.
+[[nodiscard]] std::optional<JointFit> joint_fit(const Moments& first, const Moments& second,
+                                                const Tolerance& tolerance);
+
 /// Running sums over the points of a scan, which give the moments of any run of them at once.
 class PrefixMoments {
  public:

@@ -5,7 +5,6 @@
 namespace quoin {
 namespace {
 
-constexpr std::size_t largest_gap_in_run = 2;
 constexpr int most_refinements = 10;
 
 }  // namespace

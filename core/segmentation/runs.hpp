@@ -19,8 +19,11 @@ namespace quoin {
 /// and no fit of it would be right.
 inline constexpr double largest_outlier = 4.0;
 
+/// Points off the line that a run may pass over at a time.
+inline constexpr std::size_t largest_gap_in_run = 2;
+
 /// The points around point `inside` that are within their tolerance of the line without a gap,
-/// inside `range`. A pair of mild outliers is passed over when points on the line follow. Empty
+/// inside `range`. Mild outliers are passed over when points on the line follow. Empty
 /// when that point itself is off the line.
 [[nodiscard]] Segment run_around(const PointsView& points, const Segment& range, std::size_t inside,
                                  const NormalLine& line, const Tolerance& tolerance);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/methods/method_list.hpp"
+#include "core/segmentation/expectation_maximization.hpp"
 #include "core/segmentation/hierarchical.hpp"
 #include "core/segmentation/hough.hpp"
 #include "core/segmentation/iepf.hpp"
@@ -16,6 +17,6 @@ namespace quoin {
 
 /// All segmenters, the default first.
 using Segmenters = MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking,
-                              LineRegression, Ransac, Hough, Hierarchical>;
+                              LineRegression, Ransac, Hough, ExpectationMaximization, Hierarchical>;
 
 }  // namespace quoin

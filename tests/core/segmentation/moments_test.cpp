@@ -56,5 +56,39 @@ TEST(OrthogonalFit, HasNoLineWithoutADirection) {
   EXPECT_TRUE(orthogonal_fit(square));
 }
 
+TEST(JointFit, HasAChiSquareDistanceForOneWall) {
+  // Faced squarely, so that a tolerance is 4 standard deviations of the range for all points.
+  SegmentationParameters parameters;
+  parameters.split_distance = 0.001;
+  const SensorModel sensor{0.02, 0.0, 0.0};
+  std::mt19937_64 engine(6);
+  const int trials = 2000;
+  double sum = 0.0;
+  for (int k = 0; k < trials; ++k) {
+    const Points points = wall_points({0.0, 20.0}, -0.05, 0.05, 40, sensor, engine);
+    PrefixMoments moments;
+    moments.assign(points);
+    const auto joint = joint_fit(moments(0, 20), moments(20, 40), {parameters, sensor, points});
+    ASSERT_TRUE(joint);
+    sum += joint->distance;
+  }
+  // Two degrees of freedom: mean 2, variance 4. Four standard deviations of the mean.
+  EXPECT_NEAR(sum / trials, 2.0, 4.0 * std::sqrt(4.0 / trials));
+}
+
+TEST(JointFit, IsFarForTwoWalls) {
+  const Points points = exact_wall_points({0.0, 2.0}, -0.3, 0.3, 40);
+  const Points other = exact_wall_points({1.2, 2.0}, 0.3, 0.9, 40);
+  PrefixMoments first;
+  PrefixMoments second;
+  first.assign(points);
+  second.assign(other);
+  const Tolerance tolerance({}, {}, points);
+  const auto joint = joint_fit(first(0, 40), second(0, 40), tolerance);
+  ASSERT_TRUE(joint);
+  EXPECT_GT(joint->distance, 100.0);
+  EXPECT_FALSE(joint_fit(Moments{}, Moments{}, tolerance));
+}
+
 }  // namespace
 }  // namespace quoin
