@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/segmentation/peaks.hpp"
-#include "core/segmentation/runs.hpp"
 
 namespace quoin {
 namespace {
@@ -32,23 +31,9 @@ void LineRegression::compare_windows(const Segment& cluster) {
 }
 
 void LineRegression::add(const PointsView& points, const Segment& piece) {
-  // The windows are too short for a blunt corner: such a piece is not one line. Its longest run is
-  // taken out until all is straight; the runs are added from left to right.
-  stack_.clear();
-  stack_.push_back({piece, false});
-  while (!stack_.empty()) {
-    const Candidate candidate = stack_.back();
-    stack_.pop_back();
-    const Segment& range = candidate.segment;
-    if (candidate.straight) {
-      builder_.add(range);
-      continue;
-    }
-    const Segment run = straight_run(points, moments_, range, builder_.tolerance());
-    if (run.size() < smallest_window) continue;
-    stack_.push_back({{run.end, range.end}, false});
-    stack_.push_back({run, true});
-    stack_.push_back({{range.begin, run.begin}, false});
+  // The windows are too short for a blunt corner.
+  for (const Segment& run : straight_runs_.find(points, moments_, piece, builder_.tolerance())) {
+    builder_.add(run);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/segmentation/moments.hpp"
 #include "core/segmentation/segment_builder.hpp"
+#include "core/segmentation/straight_runs.hpp"
 
 namespace quoin {
 
@@ -46,11 +47,6 @@ class LineRegression {
                   std::vector<Segment>& segments);
 
  private:
-  struct Candidate {
-    Segment segment;
-    bool straight = false;
-  };
-
   void compare_windows(const Segment& cluster);
   /// Adds what is straight of a piece.
   void add(const PointsView& points, const Segment& piece);
@@ -59,7 +55,7 @@ class LineRegression {
   double change_;
   SegmentBuilder builder_;
   PrefixMoments moments_;
-  std::vector<Candidate> stack_;  // still to be judged
+  StraightRuns straight_runs_;
   std::vector<double> distance_;  // of the lines before and from point i on
 };
 

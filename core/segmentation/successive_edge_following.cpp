@@ -65,10 +65,14 @@ std::size_t SuccessiveEdgeFollowing::follow(const PointsView& points, std::size_
 void SuccessiveEdgeFollowing::operator()(const PointsView& points, const SensorModel& sensor,
                                          std::vector<Segment>& segments) {
   builder_.start(points, sensor);
+  moments_.assign(points);
   for (const Segment& cluster : builder_.clusters()) {
     for (std::size_t begin = cluster.begin; begin < cluster.end;) {
       const std::size_t end = follow(points, begin, cluster.end);
-      builder_.add({begin, end});
+      for (const Segment& run :
+           straight_runs_.find(points, moments_, {begin, end}, builder_.tolerance())) {
+        builder_.add(run);
+      }
       begin = end;
     }
   }

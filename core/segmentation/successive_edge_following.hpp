@@ -6,7 +6,9 @@
 #include <tuple>
 #include <vector>
 
+#include "core/segmentation/moments.hpp"
 #include "core/segmentation/segment_builder.hpp"
+#include "core/segmentation/straight_runs.hpp"
 
 namespace quoin {
 
@@ -14,7 +16,8 @@ namespace quoin {
 /// where the range differs too much from what the ranges before it say. The original compares with
 /// the range before, which takes an inclined wall apart when the threshold is tight and misses
 /// corners when it is not. Here the last `slope_points` ranges of the segment predict the next:
-/// 1 / range = A cos + B sin of the bearing, exact on a straight wall however inclined.
+/// 1 / range = A cos + B sin of the bearing, exact on a straight wall however inclined. Ranges do
+/// not tell a bow from a wall, so that what is not straight is taken apart.
 class SuccessiveEdgeFollowing {
  public:
   static constexpr const char* name = "successive_edge_following";
@@ -47,6 +50,8 @@ class SuccessiveEdgeFollowing {
 
   std::size_t slope_points_;
   SegmentBuilder builder_;
+  PrefixMoments moments_;
+  StraightRuns straight_runs_;
 };
 
 }  // namespace quoin

@@ -55,19 +55,26 @@ TEST(SuccessiveEdgeFollowing, FindsACornerWithoutAStep) {
 }
 
 TEST(SuccessiveEdgeFollowing, PredictsFromSoManyPoints) {
-  // A wall that bends by 0.2 deg a point: 5 points see a line, 100 do not.
-  std::vector<double> bearings;
-  std::vector<double> ranges;
-  for (int i = 0; i < 300; ++i) {
-    bearings.push_back(0.0035 * i);
-    ranges.push_back(2.0);
-  }
+  // A bend of 25 deg takes the range off what many points say by the tolerance of 5 cm within 11 cm
+  // of the second wall, 8 points; few points bend with it.
+  const Points points = polyline_points({{2.0, -1.5}, {2.0, 0.0}, {1.4, 1.29}});
   auto parameters = bare();
+  parameters.slope_points = 100;
+  const auto by_many = segments_by<SuccessiveEdgeFollowing>(points, parameters, {0.0, 0.0, 0.0});
+  ASSERT_EQ(by_many.size(), 2U);
+  EXPECT_NEAR(static_cast<double>(by_many[1].begin),
+              static_cast<double>(nearest_point(points, {2.0, 0.0})) + 8.0, 2.0);
   parameters.slope_points = 5;
-  const Points points = points_from(bearings, ranges);
-  EXPECT_EQ(segments_by<SuccessiveEdgeFollowing>(points, parameters).size(), 1U);
-  parameters.slope_points = 300;
-  EXPECT_GE(segments_by<SuccessiveEdgeFollowing>(points, parameters).size(), 2U);
+  EXPECT_NE(segments_by<SuccessiveEdgeFollowing>(points, parameters, {0.0, 0.0, 0.0}), by_many);
+}
+
+TEST(SuccessiveEdgeFollowing, TakesABowApart) {
+  std::vector<double> bearings;
+  for (int i = 0; i < 300; ++i) bearings.push_back(0.0035 * i);
+  const Points points = points_from(bearings, std::vector<double>(300, 2.0));
+  const auto segments = segments_by<SuccessiveEdgeFollowing>(points, bare());
+  EXPECT_GE(segments.size(), 2U);
+  for (const Segment& segment : segments) EXPECT_LT(segment.size(), 200U);
 }
 
 }  // namespace
