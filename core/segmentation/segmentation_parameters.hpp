@@ -15,6 +15,7 @@ struct SegmentationParameters {
   double noise_factor = 4.0;     // standard deviations
   int min_points = 6;
   double min_length = 0.2;                        // [m]
+  double max_bend = 0.05;                         // sagitta over length
   double breakpoint_angle = 0.17453292519943295;  // [rad] 10 deg
   bool merge = true;
   bool refine = true;
@@ -33,6 +34,9 @@ struct SegmentationParameters {
         field<Owner, double>(
             &P::min_length, "min_length", "m", 0.0, 100.0,
             "shorter segments are dropped; half of it is enough beside one that is longer"),
+        field<Owner, double>(&P::max_bend, "max_bend", "", 0.0, 1.0,
+                             "segments whose sagitta is a larger part of their length, more than "
+                             "noise explains, are round things and dropped"),
         field<Owner, double>(
             &P::breakpoint_angle, "breakpoint_angle", "rad", 0.01, 1.5,
             "walls met at a smaller grazing angle fall apart; larger steps of the bearing break"),

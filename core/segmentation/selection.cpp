@@ -10,7 +10,6 @@
 namespace quoin {
 namespace {
 
-constexpr double largest_bend = 0.05;  // sagitta over length
 constexpr double significance = 2.25;  // standard deviations of the sagitta
 
 struct Mean {
@@ -45,13 +44,13 @@ void find_means(const double* __restrict x, const double* __restrict y, std::siz
 /// A bow of sagitta s over its chord has its inner half by s / 2 beside its two outer quarters, and
 /// the difference of those means has the variance 4 / n of a point's.
 bool is_bent(const PointsView& points, const Segment& segment, const NormalLine& chord,
-             double length, const SensorModel& sensor) {
+             double length, const SensorModel& sensor, double max_bend) {
   Means means;
   find_means(&points.x[segment.begin], &points.y[segment.begin], segment.size(), means);
   const double dx = means.inner.x - 0.5 * (means.first.x + means.last.x);
   const double dy = means.inner.y - 0.5 * (means.first.y + means.last.y);
   const double sagitta = 2.0 * std::abs(chord.normal_x * dx + chord.normal_y * dy);
-  if (!(sagitta > largest_bend * length)) return false;
+  if (!(sagitta > max_bend * length)) return false;
 
   const std::size_t middle = segment.begin + segment.size() / 2;
   const double cos_phi =
@@ -67,20 +66,22 @@ bool is_bent(const PointsView& points, const Segment& segment, const NormalLine&
 
 /// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0.
 double straight_length_squared(const PointsView& points, const Segment& segment,
-                               const SensorModel& sensor, const Tolerance& tolerance) {
+                               const SensorModel& sensor, const Tolerance& tolerance,
+                               double max_bend) {
   const double dx = points.x[segment.end - 1] - points.x[segment.begin];
   const double dy = points.y[segment.end - 1] - points.y[segment.begin];
   const double squared = dx * dx + dy * dy;
   if (!(squared > 4.0 * tolerance.base)) return 0.0;
   // A bow within the tolerance is not deep enough to be bent when it is long.
-  if (largest_bend * largest_bend * squared > tolerance.largest) return squared;
+  if (max_bend * max_bend * squared > tolerance.largest) return squared;
   const double length = std::sqrt(squared);
   const NormalLine chord{-dy / length, dx / length, 0.0};
   const std::size_t middle = segment.begin + segment.size() / 2;
   const double width_squared =
       4.0 * tolerance.squared(points, middle, chord.normal_x, chord.normal_y);
   if (!(squared > width_squared)) return 0.0;
-  return segment.size() >= 4 && is_bent(points, segment, chord, length, sensor) ? 0.0 : squared;
+  return segment.size() >= 4 && is_bent(points, segment, chord, length, sensor, max_bend) ? 0.0
+                                                                                          : squared;
 }
 
 }  // namespace
@@ -95,8 +96,9 @@ void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
   Segment last;
   for (const Piece& piece : pieces) {
     const bool counts = piece.segment.size() >= min_points;
-    const double length =
-        counts ? straight_length_squared(points, piece.segment, sensor, tolerance) : 0.0;
+    const double length = counts ? straight_length_squared(points, piece.segment, sensor, tolerance,
+                                                           parameters.max_bend)
+                                 : 0.0;
     const bool is_long = length > 0.0 && length >= enough;
     const bool is_half = length > 0.0 && 4.0 * length >= enough;
     if (pending && piece.joined && is_long) segments.push_back(last);

@@ -15,7 +15,7 @@ namespace quoin {
 ///   enough, because small pieces with nothing beside them are mostly of clutter,
 /// - longer than the band of their tolerance is wide: noise makes short ones out of nothing,
 /// - not bent: table legs, bins and people are round, and pieces of them fit into the tolerance.
-///   Bent is what has a sagitta of more than a twentieth of its length that noise does not explain.
+///   Bent is what has a sagitta of more than `max_bend` of its length that noise does not explain.
 void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
                   const SegmentationParameters& parameters, const SensorModel& sensor,
                   const Tolerance& tolerance, std::vector<Segment>& segments);

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "core/segmentation/hough_votes.hpp"
+#include "core/segmentation/moment_sums.hpp"
+#include "core/segmentation/segment_builder.hpp"
+
+namespace quoin {
+
+/// Hough transform (Duda and Hart 1972), peak after peak: the points of a cluster vote for the
+/// lines (alpha, r) through them; the longest run of free points near the line with most votes is
+/// fitted again and taken, and its votes are taken back, until no line has enough. A peak without a
+/// long run is a chance alignment: it is passed over and its longest run votes no more, but the
+/// points remain free for runs near other lines.
+class Hough {
+ public:
+  static constexpr const char* name = "hough";
+  static constexpr const char* description =
+      "Hough transform: takes the longest run near the line that most points vote for";
+  static constexpr const char* source = "Duda and Hart 1972; Nguyen et al. 2007";
+
+  struct Parameters : SegmentationParameters {
+    double angle_resolution = 0.03490658503988659;  // [rad] 2 deg
+    double offset_resolution = 0.04;                // [m]
+
+    static constexpr auto fields() {
+      using P = Parameters;
+      return std::tuple_cat(
+          std::make_tuple(field<P, double>(&P::angle_resolution, "angle_resolution", "rad", 0.003,
+                                           0.5, "width of a cell in the direction of the line"),
+                          field<P, double>(&P::offset_resolution, "offset_resolution", "m", 0.002,
+                                           1.0, "width of a cell in the distance of the line")),
+          common_fields<P>());
+    }
+  };
+
+  Hough() : Hough(Parameters{}) {}
+  explicit Hough(const Parameters& parameters);
+
+  void operator()(const PointsView& points, const SensorModel& sensor,
+                  std::vector<Segment>& segments);
+
+ private:
+  void search(const PointsView& points, const Segment& cluster);
+  /// The free range with the longest run near the line, and that run.
+  [[nodiscard]] Segment best_run(const PointsView& points, const NormalLine& line,
+                                 std::size_t& range) const;
+
+  std::size_t fewest_;  // points of a line
+  double offset_resolution_;
+  SegmentBuilder builder_;
+  PrefixMoments moments_;
+  HoughVotes votes_;
+  std::vector<Segment> free_;   // ranges of the cluster that are in no run, ascending
+  std::vector<Segment> found_;  // in the cluster
+};
+
+}  // namespace quoin

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/split_and_merge.hpp"
+
+namespace quoin {
+namespace {
+
+// A piece ends at least so many points before a vertex: the line of two points touches both.
+constexpr std::size_t fewest_to_split = 2;
+
+/// The point farthest from the line, not one of the outermost, on the side where `sign` is that of
+/// the distance.
+std::size_t farthest_on_side(const PointsView& points, const Segment& piece, const NormalLine& line,
+                             double sign) {
+  std::size_t farthest = piece.begin;
+  double largest = 0.0;
+  for (std::size_t i = piece.begin + fewest_to_split; i + fewest_to_split < piece.end; ++i) {
+    const double distance =
+        sign * (line.normal_x * points.x[i] + line.normal_y * points.y[i] - line.offset);
+    if (distance > largest) {
+      largest = distance;
+      farthest = i;
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
+SplitAndMerge::SplitAndMerge(const Parameters& parameters) : builder_(parameters) {}
+
+std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& piece) const {
+  if (piece.size() < 2 * fewest_to_split + 1) return piece.begin;
+  const auto fit = orthogonal_fit(moments_(piece.begin, piece.end));
+  if (!fit) return piece.begin;
+  const FarthestPoint farthest =
+      farthest_from(fit->line, points.subview(piece.begin, piece.end), builder_.tolerance());
+  if (farthest.excess <= 1.0) return piece.begin;
+  if (farthest.index >= fewest_to_split && farthest.index + fewest_to_split < piece.size()) {
+    return piece.begin + farthest.index;
+  }
+  // The line through two walls is as far from their outer ends as from their corner, which is on
+  // its other side.
+  const std::size_t end = piece.begin + farthest.index;
+  const double distance =
+      fit->line.normal_x * points.x[end] + fit->line.normal_y * points.y[end] - fit->line.offset;
+  return farthest_on_side(points, piece, fit->line, distance > 0.0 ? -1.0 : 1.0);
+}
+
+void SplitAndMerge::split(const PointsView& points, const Segment& cluster) {
+  // The leftmost is on top, so that pieces come out in order.
+  stack_.clear();
+  stack_.push_back(cluster);
+  while (!stack_.empty()) {
+    const Segment piece = stack_.back();
+    const std::size_t vertex = vertex_of(points, piece);
+    if (vertex != piece.begin) {
+      stack_.back() = {vertex, piece.end};
+      stack_.push_back({piece.begin, vertex});
+      continue;
+    }
+    stack_.pop_back();
+    builder_.add(piece);
+  }
+}
+
+void SplitAndMerge::operator()(const PointsView& points, const SensorModel& sensor,
+                               std::vector<Segment>& segments) {
+  builder_.start(points, sensor);
+  moments_.assign(points);
+  for (const Segment& cluster : builder_.clusters()) split(points, cluster);
+  builder_.finish(points, segments);
+}
+
+}  // namespace quoin

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/segmentation/moment_sums.hpp"
+#include "core/segmentation/segment_builder.hpp"
+
+namespace quoin {
+
+/// Split and merge (Pavlidis and Horowitz 1974): each cluster is split at the point farthest from
+/// the line fitted to all its points, in units of its tolerance, until none is beyond it. Noise of
+/// the two ends does not matter, as it does for a chord.
+class SplitAndMerge {
+ public:
+  static constexpr const char* name = "split_and_merge";
+  static constexpr const char* description =
+      "split and merge: splits at the point farthest from the line fitted to the piece";
+  static constexpr const char* source = "Pavlidis and Horowitz 1974";
+
+  struct Parameters : SegmentationParameters {
+    static constexpr auto fields() { return common_fields<Parameters>(); }
+  };
+
+  SplitAndMerge() : SplitAndMerge(Parameters{}) {}
+  explicit SplitAndMerge(const Parameters& parameters);
+
+  void operator()(const PointsView& points, const SensorModel& sensor,
+                  std::vector<Segment>& segments);
+
+ private:
+  void split(const PointsView& points, const Segment& cluster);
+  /// Where to split a piece; its begin when it is straight.
+  [[nodiscard]] std::size_t vertex_of(const PointsView& points, const Segment& piece) const;
+
+  SegmentBuilder builder_;
+  PrefixMoments moments_;
+  std::vector<Segment> stack_;  // still to be judged
+};
+
+}  // namespace quoin

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/successive_edge_following.hpp"
+
+#include <algorithm>
+
+#include "core/fitting/inverse_range.hpp"
+
+namespace quoin {
+namespace {
+
+// Two ranges have a slope, but it is all noise.
+constexpr std::size_t fewest_to_predict = 5;
+
+/// Adds the terms of point `i`, or takes them away when `sign` is -1.
+void add(const PointsView& points, std::size_t i, double sign, InverseRangeSums& sums) {
+  const double cosine = points.cosine[i];
+  const double sine = points.sine[i];
+  const double inverse = 1.0 / points.range[i];
+  sums.cc += sign * cosine * cosine;
+  sums.cs += sign * cosine * sine;
+  sums.ss += sign * sine * sine;
+  sums.cz += sign * cosine * inverse;
+  sums.sz += sign * sine * inverse;
+}
+
+/// Whether the range of point `i` is off what the line A x + B y = 1 through `count` ranges says.
+bool is_edge(const PointsView& points, std::size_t i, const Eigen::Vector2d& q, std::size_t count,
+             const Tolerance& tolerance) {
+  const double inverse = q.x() * points.cosine[i] + q.y() * points.sine[i];
+  if (!(inverse > 0.0)) return true;
+  const double predicted = 1.0 / inverse;
+  // (dr/dtheta) / r, the tangent of the incidence angle.
+  const double slope = (q.x() * points.sine[i] - q.y() * points.cosine[i]) * predicted;
+  // Noise of the bearing is noise of the range by the slope. A straight line extrapolated from n
+  // points by one has about 4 / n of the variance of a point.
+  const double noise =
+      (tolerance.range + tolerance.bearing * predicted * predicted * slope * slope) *
+      (1.0 + 4.0 / static_cast<double>(count));
+  const double difference = points.range[i] - predicted;
+  return difference * difference > std::max(tolerance.base, noise);
+}
+
+}  // namespace
+
+SuccessiveEdgeFollowing::SuccessiveEdgeFollowing(const Parameters& parameters)
+    : slope_points_(static_cast<std::size_t>(parameters.slope_points)), builder_(parameters) {}
+
+std::size_t SuccessiveEdgeFollowing::follow(const PointsView& points, std::size_t begin,
+                                            std::size_t end) const {
+  InverseRangeSums sums;
+  std::size_t oldest = begin;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t count = i - oldest;
+    if (count >= fewest_to_predict) {
+      const auto line = solve_inverse_line({sums.cc, sums.cs, sums.ss}, sums.cz, sums.sz);
+      if (line && is_edge(points, i, line->q, count, builder_.tolerance())) return i;
+    }
+    if (count == slope_points_) add(points, oldest++, -1.0, sums);
+    add(points, i, 1.0, sums);
+  }
+  return end;
+}
+
+void SuccessiveEdgeFollowing::operator()(const PointsView& points, const SensorModel& sensor,
+                                         std::vector<Segment>& segments) {
+  builder_.start(points, sensor);
+  moments_.assign(points);
+  for (const Segment& cluster : builder_.clusters()) {
+    for (std::size_t begin = cluster.begin; begin < cluster.end;) {
+      const std::size_t end = follow(points, begin, cluster.end);
+      for (const Segment& run :
+           straight_runs_.find(points, moments_, {begin, end}, builder_.tolerance())) {
+        builder_.add(run);
+      }
+      begin = end;
+    }
+  }
+  builder_.finish(points, segments);
+}
+
+}  // namespace quoin
