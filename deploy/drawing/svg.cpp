@@ -9,7 +9,10 @@ namespace quoin::deploy {
 
 namespace {
 
-/// Text that XML takes as it is; control characters, which it forbids, become blanks.
+std::string pixels(double value) { return number(value, 2); }
+
+}  // namespace
+
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char character : text) {
@@ -32,10 +35,6 @@ std::string escaped(std::string_view text) {
   }
   return result;
 }
-
-std::string pixels(double value) { return number(value, 2); }
-
-}  // namespace
 
 std::string number(double value, int digits) {
   std::array<char, 400> buffer{};

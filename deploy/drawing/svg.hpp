@@ -12,6 +12,9 @@ namespace quoin::deploy {
 /// `value` with at most `digits` digits behind the point and no trailing zeros.
 [[nodiscard]] std::string number(double value, int digits);
 
+/// Text that XML and HTML take as it is; control characters, which XML forbids, become blanks.
+[[nodiscard]] std::string escaped(std::string_view text);
+
 /// Rules for the classes of one kind of picture, and what is different on a dark background.
 struct StyleSheet {
   std::string_view rules;
