@@ -63,7 +63,8 @@ struct Projection {
   Box box;
   double scale = 1.0;  // pixels per metre
 
-  explicit Projection(const Drawing& drawing, double width) {
+  /// `ellipse_scale` is 0 when the ellipses are to follow the size of the picture.
+  Projection(const Drawing& drawing, double width, double ellipse_scale) {
     for (const DrawnPoint& point : drawing.points) box.include(point);
     for (const DrawnLine& line : drawing.lines) {
       box.include(line.start);
@@ -73,6 +74,7 @@ struct Projection {
     for (const DrawnCorner& corner : drawing.corners) {
       if (drawing.points.empty()) box.include(corner.position);
     }
+    include_ellipses(drawing, ellipse_scale);
     const double border =
         0.04 * std::max({box.right - box.left, box.top - box.bottom, smallest_extent});
     box.left -= border;
@@ -86,6 +88,24 @@ struct Projection {
     const double spare = (width - 2.0 * margin) / scale - (box.right - box.left);
     box.left -= 0.5 * spare;
     box.right += 0.5 * spare;
+  }
+
+  /// Makes room for ellipses of a given scale, at most twice as much as without.
+  void include_ellipses(const Drawing& drawing, double ellipse_scale) {
+    const Box without = box;
+    const double most = 0.5 * std::max(box.right - box.left, box.top - box.bottom);
+    for (const DrawnCorner& corner : drawing.corners) {
+      const DrawnPoint& at = corner.position;
+      if (!finite(corner) || at.x < without.left || at.x > without.right || at.y < without.bottom ||
+          at.y > without.top) {
+        continue;
+      }
+      const double c = std::cos(corner.direction), s = std::sin(corner.direction);
+      const double dx = ellipse_scale * std::hypot(corner.semi_major * c, corner.semi_minor * s);
+      const double dy = ellipse_scale * std::hypot(corner.semi_major * s, corner.semi_minor * c);
+      box.include({at.x - std::min(dx, most), at.y - std::min(dy, most)});
+      box.include({at.x + std::min(dx, most), at.y + std::min(dy, most)});
+    }
   }
 
   [[nodiscard]] double x(double metres) const { return margin + (metres - box.left) * scale; }
@@ -138,7 +158,7 @@ std::string ellipse_style(std::size_t series) {
 std::size_t draw_corners(Svg& svg, const Drawing& drawing, const Projection& to,
                          double ellipse_scale) {
   std::size_t outside = 0;
-  svg.open("g", {{"class", "corners"}});
+  svg.open("g", {{"class", drawing.series.empty() ? "corners" : "corners compared"}});
   for (const DrawnCorner& corner : drawing.corners) {
     if (!finite(corner) || !to.shows(corner.position)) {
       ++outside;
@@ -216,6 +236,7 @@ constexpr StyleSheet style{
     ".point{fill:#4a6fa5}.fitted{stroke:#e07b00;stroke-width:2;stroke-linecap:round}"
     ".uncertainty{fill:#c62828;fill-opacity:.18;stroke:#c62828;stroke-width:1.2}"
     ".corner{fill:#c62828}.sensor{fill:#2e7d32;stroke:#2e7d32;stroke-width:2}"
+    ".compared ellipse{fill-opacity:0;stroke-width:1.8}"
     ".s1{fill:#00695c;stroke:#00897b;stroke-dasharray:7 3}"
     ".s2{fill:#1565c0;stroke:#1e6fd0;stroke-dasharray:2 2}"
     ".bar{stroke:#222;stroke-width:1.5}",
@@ -240,7 +261,7 @@ double readable_ellipse_scale(const Drawing& drawing, double pixels_per_metre) {
 }
 
 std::string draw_svg(const Drawing& drawing, const DrawingOptions& options) {
-  const Projection to(drawing, options.width);
+  const Projection to(drawing, options.width, options.ellipse_scale);
   const double scale = options.ellipse_scale > 0.0 ? options.ellipse_scale
                                                    : readable_ellipse_scale(drawing, to.scale);
   const double step = grid_step(to.scale);

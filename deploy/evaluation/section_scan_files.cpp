@@ -19,7 +19,7 @@ namespace quoin::deploy {
 namespace {
 
 constexpr std::size_t timed_scans = 500;  // of the front of a file
-constexpr double timing_duration = 0.2;   // [s] per file, segmenter and fitter
+constexpr double timing_duration = 0.05;  // [s] per file, segmenter and fitter
 
 struct Entry {
   std::size_t file = 0;
