@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <sys/ioctl.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -28,6 +29,35 @@ struct EvaluateOptions {
   bool no_timing = false;
   bool json = false;
   bool quiet = false;
+};
+
+/// The folder of the report, made before anything is computed so that a mistake shows at once;
+/// taken away again, if it is new and empty, when there is no report to put into it.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::string& path) : path_(path) {
+    std::error_code error;
+    made_ = std::filesystem::create_directories(path_, error);
+    if (!std::filesystem::is_directory(path_)) {
+      throw OptionError("-o: '" + path + "' is not a folder" +
+                        (error ? " and cannot be made: " + error.message() : ""));
+    }
+    if (::access(path_.c_str(), W_OK) != 0) {
+      throw OptionError("-o: folder '" + path + "' cannot be written to");
+    }
+  }
+  ~OutputFolder() {
+    std::error_code error;
+    if (made_) std::filesystem::remove(path_, error);
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
 };
 
 std::size_t error_terminal_width() {
@@ -53,21 +83,18 @@ int run(EvaluateOptions options) {
   options.evaluation.version = QUOIN_VERSION;
   try {
     const EvaluationSetup setup = prepare(options.evaluation);
-    if (std::filesystem::exists(options.output) && !std::filesystem::is_directory(options.output)) {
-      throw OptionError("-o: '" + options.output + "' is not a folder");
-    }
+    const OutputFolder folder(options.output);
     const EvaluationReport report = evaluate_with_progress(setup, options.quiet);
-    write_report(report, options.output);
+    write_report(report, folder.path());
     if (options.json) {
       std::cout << report.json;
       return exit_ok;
     }
     if (options.quiet) return exit_ok;
     for (const std::string& line : report.summary) std::cout << line << '\n';
-    const std::filesystem::path folder = options.output;
     std::cout << '\n'
-              << (folder / "report.html").string() << '\n'
-              << (folder / "report.json").string() << '\n';
+              << (folder.path() / "report.html").string() << '\n'
+              << (folder.path() / "report.json").string() << '\n';
     return exit_ok;
   } catch (const OptionError& error) {
     std::cerr << error.what() << '\n';
@@ -121,6 +148,7 @@ Command add_evaluate(CLI::App& app) {
       ->check(more_than_zero())
       ->capture_default_str();
   line->add_option("--seed", evaluation.seed, "Seed of all noise; same seed, same numbers")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   line->add_option("--threads", evaluation.threads,
                    "Threads that compute; numbers do not depend on it")
