@@ -13,13 +13,14 @@ namespace {
 
 constexpr double same_point = 1e-9;  // [m]
 
-Line line_through(const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
-  const Eigen::Vector2d along = (end - start).normalized();
+}  // namespace
+
+Line wall_line(const Wall& wall, const Pose2& pose) {
+  const Eigen::Vector2d start = pose.inverse_transform(wall.start);
+  const Eigen::Vector2d along = (pose.inverse_transform(wall.end) - start).normalized();
   const Eigen::Vector2d normal(-along.y(), along.x());
   return normalized({{std::atan2(normal.y(), normal.x()), normal.dot(start)}, {}}).line;
 }
-
-}  // namespace
 
 Scene observe(const World& world, const Pose2& pose, std::size_t rays, std::size_t min_points) {
   const double step = 2.0 * pi / static_cast<double>(rays);
@@ -44,8 +45,7 @@ Scene observe(const World& world, const Pose2& pose, std::size_t rays, std::size
     if (hits[begin].wall == Hit::no_wall || count < min_points) continue;
     VisibleWall wall;
     wall.wall = hits[begin].wall;
-    wall.line = line_through(pose.inverse_transform(world.walls[wall.wall].start),
-                             pose.inverse_transform(world.walls[wall.wall].end));
+    wall.line = wall_line(world.walls[wall.wall], pose);
     for (std::size_t k = 0; k < count; ++k) {
       wall.bearings.push_back(bearings[(begin + k) % rays]);
       wall.ranges.push_back(hits[(begin + k) % rays].distance);

@@ -37,6 +37,9 @@ struct Scene {
   std::vector<VisibleCorner> corners;
 };
 
+/// The line of a wall in the frame of `pose`.
+[[nodiscard]] Line wall_line(const Wall& wall, const Pose2& pose);
+
 /// The scene of `rays` evenly spaced rays all around from `pose`.
 [[nodiscard]] Scene observe(const World& world, const Pose2& pose, std::size_t rays,
                             std::size_t min_points);

@@ -14,15 +14,22 @@
 
 namespace quoin {
 
-/// Which visible walls a segmenter must find: at least so many points and so long. Pieces of walls
-/// that are smaller are neither required nor false. The values are those of Nguyen et al. 2007.
+/// Which visible walls a segmenter must find: at least so many points and so long (the values of
+/// Nguyen et al. 2007). Pieces of walls that are smaller are neither required nor false.
 struct WorthFinding {
   std::size_t min_points = 9;
   double min_length = 0.5;  ///< [m]
 };
 
-/// The measures of Nguyen et al., "A comparison of line extraction algorithms using 2D range data
-/// for indoor mobile robotics", 2007.
+/// What makes a match of a found and a true segment: more than half of the points of their union in
+/// common, and a line that passes the middle of the true one so near and at so small an angle.
+struct Matching {
+  double distance = 0.1;               ///< [m]
+  double angle = 0.17453292519943295;  ///< [rad] 10 deg
+};
+
+/// How well a segmenter finds the walls. The measures of Nguyen et al., "A comparison of line
+/// extraction algorithms using 2D range data for indoor mobile robotics", 2007.
 struct SegmentationQuality {
   std::size_t scans = 0;
   std::size_t true_segments = 0;

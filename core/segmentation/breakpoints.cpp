@@ -72,21 +72,19 @@ BreakpointDetector::BreakpointDetector(double lambda)
     : sine_(std::sin(lambda)), cosine_(std::cos(lambda)) {}
 
 bool BreakpointDetector::find(const PointsView& points, const SensorModel& sensor,
-                              std::vector<std::size_t>& starts) {
-  starts.clear();
+                              std::vector<Segment>& clusters) {
+  clusters.clear();
   const std::size_t count = points.size();
   if (count == 0) return true;
   const Criterion criterion{sine_, cosine_, 3.0 * sensor.range_stddev, 3.0 * sensor.bearing_stddev};
   excess_.resize(count);
   compute_excess(points.range.data(), points.cosine.data(), points.sine.data(), points.x.data(),
                  points.y.data(), count, criterion, excess_.data());
-  starts.push_back(0);
-  std::size_t i = next_positive(excess_.data(), 1, count);
-  while (i < count) {
-    starts.push_back(i);
-    i = next_positive(excess_.data(), i + 1, count);
+  for (std::size_t begin = 0; begin < count;) {
+    const std::size_t end = next_positive(excess_.data(), begin + 1, count);
+    clusters.push_back({begin, end});
+    begin = end;
   }
-  starts.push_back(count);
 
   const auto point = [&points](std::size_t k) {
     return Point{points.range[k], points.cosine[k], points.sine[k], points.x[k], points.y[k]};

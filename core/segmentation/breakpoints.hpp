@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/segmentation/segment.hpp"
 #include "core/sensor/points.hpp"
 #include "core/sensor/sensor_model.hpp"
 
@@ -22,10 +23,9 @@ class BreakpointDetector {
  public:
   explicit BreakpointDetector(double lambda);  ///< [rad] in (0, pi / 2)
 
-  /// Fills `starts` with the index of the first point of each cluster, ascending, and the number of
-  /// points at the end; empty without points. Returns whether the last point and the first belong
-  /// to different surfaces.
-  bool find(const PointsView& points, const SensorModel& sensor, std::vector<std::size_t>& starts);
+  /// Fills `clusters` with the runs between breaks, ascending; empty without points. Returns
+  /// whether the last point and the first belong to different surfaces.
+  bool find(const PointsView& points, const SensorModel& sensor, std::vector<Segment>& clusters);
 
  private:
   double sine_;

@@ -88,6 +88,57 @@ World environment_b() {
   return world;
 }
 
+World cwlf_environment_a() {
+  World world;
+  world.name = "cwlf_environment_a";
+  world.description =
+      "room of 9 x 8 m with bays, a pilaster and panels: 36 walls and 23 corners in sight";
+  world.add_polyline({{1.0, 0.0},  {3.2, 0.0},  {3.6, -0.5}, {5.4, -0.5}, {5.8, 0.0},  // bay
+                      {9.0, 0.0},  {9.0, 2.6},  {8.5, 3.1},  {8.5, 4.6},  {9.0, 5.1},  // pilaster
+                      {9.0, 6.74}, {7.5, 8.0},                            // slanted wall
+                      {5.6, 8.0},  {5.2, 8.5},  {3.9, 8.5},  {3.5, 8.0},  // bay
+                      {1.6, 8.0},  {0.0, 6.6},                            // slanted wall
+                      {0.0, 5.2},  {-0.5, 4.8}, {-0.5, 3.4}, {0.0, 3.0},  // bay
+                      {0.0, 1.0}},                                        // slanted wall
+                     true);
+  // Panels that hide parts of the walls behind them.
+  world.add_polyline({{6.58, 2.59}, {6.76, 2.91}}, false);
+  world.add_polyline({{5.71, 1.81}, {6.01, 2.00}}, false);
+  world.add_polyline({{3.09, 1.92}, {3.41, 1.74}}, false);
+  world.add_polyline({{2.13, 3.19}, {2.27, 2.86}}, false);
+  world.add_polyline({{6.48, 5.54}, {6.24, 5.81}}, false);
+  world.add_polyline({{5.76, 6.17}, {5.43, 6.33}}, false);
+  world.pillars.push_back({{3.44, 6.27}, 0.05});
+  world.path = {{4.5, 4.0, 0.0}, {5.2, 3.6, 0.3}, {3.8, 4.4, 2.9}};
+  return world;
+}
+
+World cwlf_environment_b() {
+  World world;
+  world.name = "cwlf_environment_b";
+  world.description = "room of 3.5 x 6 m with bays and a panel: 18 walls and 15 corners in sight";
+  world.add_polyline({{0.6, 0.0},
+                      {3.5, 0.0},
+                      {3.5, 1.9},
+                      {3.2, 2.3},  // step
+                      {3.2, 6.0},
+                      {2.4, 6.0},
+                      {2.2, 6.3},
+                      {1.2, 6.3},
+                      {1.0, 6.0},  // bay
+                      {0.0, 6.0},
+                      {0.0, 4.1},
+                      {-0.3, 3.8},
+                      {-0.3, 2.6},
+                      {0.0, 2.3},   // bay
+                      {0.0, 0.6}},  // slanted wall
+                     true);
+  world.add_polyline({{1.85, 1.6}, {2.15, 1.6}}, false);
+  world.pillars.push_back({{0.86, 3.95}, 0.04});
+  world.path = {{1.75, 3.0, 0.0}, {1.8, 2.2, 0.4}, {1.7, 4.2, 2.9}};
+  return world;
+}
+
 World corridor() {
   World world;
   world.name = "corridor";
@@ -115,9 +166,11 @@ struct Entry {
   World (*make)();
 };
 
-constexpr std::array<Entry, 5> entries{{{"domestic_room", domestic_room},
+constexpr std::array<Entry, 7> entries{{{"domestic_room", domestic_room},
                                         {"environment_a", environment_a},
                                         {"environment_b", environment_b},
+                                        {"cwlf_environment_a", cwlf_environment_a},
+                                        {"cwlf_environment_b", cwlf_environment_b},
                                         {"corridor", corridor},
                                         {"square_room", square_room}}};
 

@@ -63,8 +63,9 @@ void run_jobs(const std::vector<Job>& jobs, std::size_t threads,
       workers.emplace_back([&] { work(jobs, shared, stop); });
     }
     std::unique_lock lock(shared.mutex);
-    while (shared.finished < count) {
-      shared.changed.wait_for(lock, progress_period);
+    for (bool last = false; !last;) {
+      last =
+          shared.changed.wait_for(lock, progress_period, [&] { return shared.finished == count; });
       const JobProgress progress = shared.progress;
       lock.unlock();
       if (!interrupted && !proceed(progress)) {
@@ -105,21 +106,6 @@ Segmenter stoppable(Segmenter segmenter, std::stop_token stop) {
     if (stop.stop_requested()) throw Interrupted();
     segmenter(points, sensor, segments);
   };
-}
-
-double calls_per_second(const std::function<void()>& work, double duration) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
-  work();  // the first call allocates
-  const Clock::time_point start = Clock::now();
-  std::size_t calls = 0;
-  double elapsed = 0.0;
-  do {
-    work();
-    ++calls;
-    elapsed = seconds(Clock::now() - start);
-  } while (elapsed < duration);
-  return static_cast<double>(calls) / elapsed;
 }
 
 }  // namespace quoin::deploy

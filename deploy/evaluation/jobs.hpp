@@ -49,7 +49,4 @@ void run_jobs(const std::vector<Job>& jobs, std::size_t threads,
 [[nodiscard]] Fitter stoppable(Fitter fitter, std::stop_token stop);
 [[nodiscard]] Segmenter stoppable(Segmenter segmenter, std::stop_token stop);
 
-/// How often a second `work` can be called, found by calling it for `duration` [s] at least.
-[[nodiscard]] double calls_per_second(const std::function<void()>& work, double duration);
-
 }  // namespace quoin::deploy

@@ -8,6 +8,7 @@
 
 #include "core/corners/corner_finders.hpp"
 #include "core/evaluation/scan_statistics.hpp"
+#include "core/evaluation/stopwatch.hpp"
 #include "deploy/drawing/drawing.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/pictures.hpp"
@@ -18,8 +19,7 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr std::size_t timed_scans = 500;  // of the front of a file
-constexpr double timing_duration = 0.05;  // [s] per file, segmenter and fitter
+constexpr std::size_t timed_scans = 50;  // of the front of a file
 
 struct Entry {
   std::size_t file = 0;
@@ -60,10 +60,12 @@ class ScanFilesSection : public Section {
                         Extraction extraction = make_extraction(entry, stop);
                         const auto& scans = files_[entry.file].scans;
                         const std::size_t count = std::min(scans.size(), timed_scans);
-                        std::size_t next = 0;
-                        entry.scans_per_second = calls_per_second(
-                            [&] { extraction.run(view(scans[next++ % count]), sensor_, sensor_); },
-                            timing_duration);
+                        const double seconds = seconds_per_call([&] {
+                          for (std::size_t k = 0; k < count; ++k) {
+                            extraction.run(view(scans[k]), sensor_, sensor_);
+                          }
+                        });
+                        entry.scans_per_second = static_cast<double>(count) / seconds;
                       }});
     }
     return jobs;

@@ -8,7 +8,9 @@
 
 #include "core/evaluation/extraction.hpp"
 #include "core/evaluation/segmentation_quality.hpp"
+#include "core/evaluation/stopwatch.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/simulation/cluttered_room.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/report/table.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 constexpr std::array range_stddevs{0.003, 0.010, 0.020, 0.050};  // [m]
 constexpr std::size_t timed_scans = 20;
-constexpr double timing_duration = 0.2;  // [s] per segmenter and noise
+constexpr std::size_t cluttered_room_count = 20;
 constexpr double degrees = 180.0 / pi;
 
 struct Entry {
@@ -34,7 +36,10 @@ class SegmentersSection : public Section {
   explicit SegmentersSection(const EvaluationSetup& setup)
       : scans_(setup.options.scans_per_world),
         seed_(setup.options.seed),
-        worlds_(worlds_or(setup, world_names())),
+        worlds_(setup.worlds.empty()
+                    ? cluttered_rooms(cluttered_room_count,
+                                      derived_seed(setup.options.seed, "cluttered_rooms"))
+                    : setup.worlds),
         segmenters_(setup.segmenters) {
     for (const std::string& segmenter : segmenters_) {
       for (const double range_stddev : range_stddevs) {
@@ -153,9 +158,10 @@ class SegmentersSection : public Section {
     }
     const Segmenter segmenter = stoppable(make_segmenter(entry.segmenter), stop);
     std::vector<Segment> segments;
-    std::size_t next = 0;
-    entry.scans_per_second = calls_per_second(
-        [&] { segmenter(scans[next++ % timed_scans], entry.noise, segments); }, timing_duration);
+    const double seconds = seconds_per_call([&] {
+      for (const Points& points : scans) segmenter(points, entry.noise, segments);
+    });
+    entry.scans_per_second = static_cast<double>(scans.size()) / seconds;
   }
 
   [[nodiscard]] IntervalChart rate_chart(const std::string& title,

@@ -140,6 +140,7 @@ TEST(Iepf, HasDeepSplitsWithoutRecursion) {
   std::vector<Segment> segments;
   Iepf::Parameters parameters;
   parameters.breakpoint_angle = 0.01;
+  parameters.noise_factor = 0.0;
   Iepf{parameters}(points_from(bearings, ranges), SensorModel{0.1, 0.0, 0.0}, segments);
   EXPECT_TRUE(segments.empty());
 }

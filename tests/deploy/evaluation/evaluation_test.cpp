@@ -253,7 +253,9 @@ TEST(Evaluation, TellsItsProgressAndEndsWhenAsked) {
     return true;
   });
   ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.back().total, 10U);  // two fitters in five worlds
+  EXPECT_EQ(told.back().total, 2 * world_names().size());  // two fitters in every world
+  EXPECT_EQ(told.back().done, told.back().total);
+  EXPECT_THAT(told.back().finished, ElementsAre("loop"));
   options.trials = 1000000000;
   options.only = {"consistency"};
   EXPECT_THROW((void)evaluate(prepare(options), [](const auto&) { return false; }), Interrupted);

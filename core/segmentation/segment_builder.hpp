@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/segmentation/breakpoints.hpp"
+#include "core/segmentation/piece.hpp"
+#include "core/segmentation/segment.hpp"
+#include "core/segmentation/segmentation_parameters.hpp"
+#include "core/segmentation/tolerance.hpp"
+
+namespace quoin {
+
+/// What all segmenters share: clusters between break points before the method's own work; merging,
+/// boundaries and selection after it. Keeps its memory from scan to scan.
+class SegmentBuilder {
+ public:
+  explicit SegmentBuilder(const SegmentationParameters& parameters);
+
+  /// Finds the clusters of a new scan and forgets the pieces of the last.
+  void start(const PointsView& points, const SensorModel& sensor);
+
+  /// Runs of points without a break of the surface, ascending; together they are all points.
+  [[nodiscard]] std::span<const Segment> clusters() const { return clusters_; }
+
+  /// Of the points of this scan.
+  [[nodiscard]] const Tolerance& tolerance() const { return tolerance_; }
+
+  /// The next straight piece that the method has found: behind the one before, and inside one
+  /// cluster. Points between pieces belong to none.
+  void add(const Segment& piece);
+
+  /// Merges, refines and selects as the parameters say.
+  void finish(const PointsView& points, std::vector<Segment>& segments);
+
+ private:
+  SegmentationParameters parameters_;
+  BreakpointDetector breakpoints_;
+  SensorModel sensor_;
+  Tolerance tolerance_;
+  std::vector<Segment> clusters_;
+  std::vector<Piece> pieces_;
+  bool closed_ = false;      // the surface goes on from the last point to the first
+  std::size_t cluster_ = 0;  // of the last piece
+};
+
+}  // namespace quoin

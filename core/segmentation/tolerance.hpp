@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "core/segmentation/segmentation_parameters.hpp"
+#include "core/sensor/points.hpp"
+#include "core/sensor/sensor_model.hpp"
+
+namespace quoin {
+
+/// How far a point may be from the line it belongs to: `split_distance`, or `noise_factor` standard
+/// deviations of the point's noise across the line where that is more. Noise along the ray counts
+/// by the cosine of the incidence angle, noise of the bearing by its sine and the range.
+struct Tolerance {
+  double base = 0.0;     ///< [m^2] split_distance squared
+  double range = 0.0;    ///< [m^2] noise_factor standard deviations of the range, squared
+  double bearing = 0.0;  ///< [rad^2] the same of the bearing
+  double largest = 0.0;  ///< [m^2] of any point and line of the scan
+
+  Tolerance() = default;
+  /// For the points of one scan.
+  Tolerance(const SegmentationParameters& parameters, const SensorModel& sensor,
+            const PointsView& points);
+
+  /// Whether noise counts for any point; if not, all tolerances are `base`.
+  [[nodiscard]] bool raised() const { return largest > base; }
+
+  /// [m^2] of a point at `distance` [m] from the sensor, whose ray has the components `cosine`
+  /// along the unit normal of the line and `sine` across it.
+  [[nodiscard]] double squared(double distance, double cosine, double sine) const {
+    const double noise = range * cosine * cosine + bearing * distance * distance * sine * sine;
+    return noise > base ? noise : base;
+  }
+
+  /// [m^2] of point `i` and a line with this unit normal.
+  [[nodiscard]] double squared(const PointsView& points, std::size_t i, double normal_x,
+                               double normal_y) const {
+    return squared(points.range[i], points.cosine[i] * normal_x + points.sine[i] * normal_y,
+                   points.sine[i] * normal_x - points.cosine[i] * normal_y);
+  }
+};
+
+/// A line by its unit normal: normal_x x + normal_y y = offset.
+struct NormalLine {
+  double normal_x = 1.0;
+  double normal_y = 0.0;
+  double offset = 0.0;  ///< [m]
+};
+
+/// A point by its squared distance in units of its squared tolerance.
+struct FarthestPoint {
+  std::size_t index = 0;  ///< 0 when no point is beyond its tolerance
+  double excess = 0.0;    ///< more than 1 beyond it
+};
+
+/// Of the points, which are at least one, the one most beyond its tolerance.
+[[nodiscard]] FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
+                                          const Tolerance& tolerance);
+
+/// The point most beyond its tolerance from the chord between the first and the last of the points,
+/// or zero when there is none; from the first point when the chord is shorter than the distance
+/// from it.
+[[nodiscard]] FarthestPoint farthest_from_chord(const PointsView& points,
+                                                const Tolerance& tolerance);
+
+}  // namespace quoin
