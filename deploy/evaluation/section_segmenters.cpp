@@ -40,6 +40,7 @@ class SegmentersSection : public Section {
                     ? cluttered_rooms(cluttered_room_count,
                                       derived_seed(setup.options.seed, "cluttered_rooms"))
                     : setup.worlds),
+        places_(setup.worlds.empty() ? " rooms with furniture and clutter" : " worlds"),
         segmenters_(setup.segmenters) {
     for (const std::string& segmenter : segmenters_) {
       for (const double range_stddev : range_stddevs) {
@@ -93,8 +94,8 @@ class SegmentersSection : public Section {
   void write_html(HtmlPage& page) const override {
     page.paragraph(
         "The measures of Nguyen et al. 2007 on simulated scans whose true segments are known, " +
-        std::to_string(scans_) + " scans of each of " + std::to_string(worlds_.size()) +
-        " worlds: true positives among the true segments, false positives among the found ones, "
+        std::to_string(scans_) + " scans of each of " + std::to_string(worlds_.size()) + places_ +
+        ": true positives among the true segments, false positives among the found ones, "
         "and how far the lines of matched segments scatter around the true ones. Bearing noise is "
         "0.113 deg.");
     page.figure(
@@ -191,6 +192,7 @@ class SegmentersSection : public Section {
   std::size_t scans_;
   std::uint64_t seed_;
   std::vector<World> worlds_;
+  std::string places_;  // what the worlds are
   std::vector<std::string> segmenters_;
   std::vector<Entry> entries_;
 };
