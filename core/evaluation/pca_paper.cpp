@@ -52,8 +52,8 @@ struct Sums {
     const Eigen::Vector2d normal = line.normal();
     double squares = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double residual = normal.x() * points.x[i] + normal.y() * points.y[i] - line.r;
-      squares += residual * residual;
+      const double d = normal.x() * points.x[i] + normal.y() * points.y[i] - line.r;
+      squares += d * d;
     }
     residual += std::sqrt(squares / static_cast<double>(points.size()));
     const double angle = normalized_angle(line.alpha - 0.5 * pi);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string_view>
 #include <tuple>
@@ -41,20 +42,23 @@ struct CovarianceParameters {
 /// Why a fit has no result.
 enum class FitFailure {
   none,
-  too_few_points,  ///< fewer than two
+  too_few_points,  ///< fewer than two, or than three where the residuals give the covariance
   degenerate,      ///< the points do not determine a line, such as all equal
-  through_sensor,  ///< the line passes through the sensor, where this method is not defined
+  through_sensor,  ///< the line passes through the sensor, or too near it for the bearing noise,
+                   ///< where this method is not defined
   not_finite,      ///< the numbers left the range of double
+  not_converged,   ///< an iteration found no end
 };
 
 template <>
 struct EnumNames<FitFailure> {
-  static constexpr std::array<std::pair<FitFailure, std::string_view>, 5> names{
+  static constexpr std::array<std::pair<FitFailure, std::string_view>, 6> names{
       {{FitFailure::none, "none"},
        {FitFailure::too_few_points, "too_few_points"},
        {FitFailure::degenerate, "degenerate"},
        {FitFailure::through_sensor, "through_sensor"},
-       {FitFailure::not_finite, "not_finite"}}};
+       {FitFailure::not_finite, "not_finite"},
+       {FitFailure::not_converged, "not_converged"}}};
 };
 
 /// Line fitted to the points of one segment, or the reason why there is none.
@@ -66,6 +70,18 @@ struct FitResult {
 
   [[nodiscard]] bool ok() const { return failure == FitFailure::none; }
   [[nodiscard]] static FitResult failed(FitFailure reason) { return {{}, reason, 0, false}; }
+
+  /// Fails as `not_finite` when a number is not. A variance that is 0 but for rounding stays
+  /// positive.
+  [[nodiscard]] static FitResult fitted(const Line& line, const Eigen::Matrix2d& covariance) {
+    if (!std::isfinite(line.alpha) || !std::isfinite(line.r) || !covariance.allFinite()) {
+      return failed(FitFailure::not_finite);
+    }
+    FitResult result;
+    result.estimate = {line, covariance};
+    result.estimate.covariance.diagonal() = covariance.diagonal().cwiseMax(0.0);
+    return result;
+  }
 };
 
 /// Fits one line to all points of the view. Pure: same points, same line.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/angle.hpp"
 
@@ -29,9 +30,6 @@ FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence) {
   const double b = line.q.y();
   const double norm_squared = a * a + b * b;
   const double r = 1.0 / std::sqrt(norm_squared);
-  const double angle = std::atan2(b, a);
-  FitResult result;
-  result.estimate.line = {angle <= -pi ? pi : angle, r};
 
   // Rows of d(alpha, r)/d(A, B) M^-1. With the sign of y turned this is the chain of WCTLS eq. (23)
   // from Q to the unit normal and the distance, and on to alpha.
@@ -47,22 +45,22 @@ FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence) {
   const auto product = [&influence](double ux, double uy, double vx, double vy) {
     return influence.xx * ux * vx + influence.xy * (ux * vy + uy * vx) + influence.yy * uy * vy;
   };
-  Eigen::Matrix2d& covariance = result.estimate.covariance;
+  Eigen::Matrix2d covariance;
   covariance(0, 0) = product(alpha_x, alpha_y, alpha_x, alpha_y);
   covariance(0, 1) = product(alpha_x, alpha_y, r_x, r_y);
   covariance(1, 0) = covariance(0, 1);
   covariance(1, 1) = product(r_x, r_y, r_x, r_y);
-  if (!std::isfinite(r) || !std::isfinite(angle) || !covariance.allFinite()) {
-    return FitResult::failed(FitFailure::not_finite);
-  }
-  return result;
+  return FitResult::fitted({direction_of(a, b), r}, covariance);
 }
 
 FitFailure reason_of_singularity(const PointsView& points) {
   double extent = 0.0;
   double size = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(points.x[i]) || !std::isfinite(points.y[i])) return FitFailure::not_finite;
+    const double square = points.x[i] * points.x[i] + points.y[i] * points.y[i];
+    if (!std::isfinite(square) || square < std::numeric_limits<double>::min()) {
+      return FitFailure::not_finite;
+    }
     extent = std::max(
         {extent, std::abs(points.x[i] - points.x[0]), std::abs(points.y[i] - points.y[0])});
     size = std::max({size, std::abs(points.x[i]), std::abs(points.y[i])});

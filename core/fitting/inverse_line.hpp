@@ -7,15 +7,9 @@
 #include <Eigen/Core>
 
 #include "core/fitting/fit.hpp"
+#include "core/fitting/symmetric2.hpp"
 
 namespace quoin {
-
-/// Symmetric 2x2 matrix.
-struct Symmetric2 {
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-};
 
 /// Solves M q = v, the normal equations of a fit of A x + B y = 1 with q = (A, B), and keeps M^-1.
 /// Nothing when M is singular to rounding: all points lie on one ray or are equal. For UTLS and

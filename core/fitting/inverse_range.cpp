@@ -2,102 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/fitting/inverse_range.hpp"
 
-#include "core/sensor/multiversion.hpp"
+#include "core/fitting/inverse_range_regression.hpp"
+#include "core/fitting/radial_step.hpp"
 
 namespace quoin {
-namespace {
 
-QUOIN_MULTIVERSION
-void add_up(const double* __restrict cosine, const double* __restrict sine,
-            const double* __restrict range, std::size_t count, InverseRangeSums& out) {
-  InverseRangeSums sums;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1.0 / range[i];
-    sums.cc += cosine[i] * cosine[i];
-    sums.cs += cosine[i] * sine[i];
-    sums.ss += sine[i] * sine[i];
-    sums.cz += cosine[i] * z;
-    sums.sz += sine[i] * z;
-  }
-  out = sums;
-}
-
-/// Influences of one point on M q, with e the residual of the regression and d the slope of the
-/// fitted inverse range with bearing:
-///   range:   -(c, s) z^2            bearing:  (-s, c) e - (c, s) d
-/// Exact derivatives: WCTLS eq. (14) and (15) with the weights differentiated, times M / c_w.
-struct PointInfluence {
-  double range_x, range_y, bearing_x, bearing_y;
-};
-inline PointInfluence influence_of(double c, double s, double range, double a, double b) {
-  const double z = 1.0 / range;
-  const double e = z - (c * a + s * b);
-  const double d = c * b - s * a;
-  return {-c * z * z, -s * z * z, -s * e - c * d, c * e - s * d};
-}
-
-QUOIN_MULTIVERSION
-void add_up_influences(const double* __restrict cosine, const double* __restrict sine,
-                       const double* __restrict range, std::size_t count, double a, double b,
-                       double range_variance, double bearing_variance, Symmetric2& out) {
-  Symmetric2 sums;
-  for (std::size_t i = 0; i < count; ++i) {
-    const PointInfluence p = influence_of(cosine[i], sine[i], range[i], a, b);
-    sums.xx +=
-        range_variance * p.range_x * p.range_x + bearing_variance * p.bearing_x * p.bearing_x;
-    sums.xy +=
-        range_variance * p.range_x * p.range_y + bearing_variance * p.bearing_x * p.bearing_y;
-    sums.yy +=
-        range_variance * p.range_y * p.range_y + bearing_variance * p.bearing_y * p.bearing_y;
-  }
-  out = sums;
-}
-
-}  // namespace
-
-InverseRangeSums inverse_range_sums(const PointsView& points) {
-  InverseRangeSums sums;
-  add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), sums);
-  return sums;
-}
-
-Symmetric2 inverse_range_influence(const PointsView& points, const Eigen::Vector2d& q,
-                                   const SensorModel& sensor) {
-  Symmetric2 sums;
-  add_up_influences(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-                    q.x(), q.y(), sensor.range_stddev * sensor.range_stddev,
-                    sensor.bearing_stddev * sensor.bearing_stddev, sums);
-  return sums;
-}
-
-Symmetric2 inverse_range_common_influence(const PointsView& points, const Eigen::Vector2d& q,
-                                          const SensorModel& sensor) {
-  PointInfluence sum{};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const PointInfluence p =
-        influence_of(points.cosine[i], points.sine[i], points.range[i], q.x(), q.y());
-    sum.range_x += p.range_x;
-    sum.range_y += p.range_y;
-    sum.bearing_x += p.bearing_x;
-    sum.bearing_y += p.bearing_y;
-  }
-  const double vr = sensor.range_stddev * sensor.range_stddev;
-  const double vb = sensor.bearing_stddev * sensor.bearing_stddev;
-  return {vr * sum.range_x * sum.range_x + vb * sum.bearing_x * sum.bearing_x,
-          vr * sum.range_x * sum.range_y + vb * sum.bearing_x * sum.bearing_y,
-          vr * sum.range_y * sum.range_y + vb * sum.bearing_y * sum.bearing_y};
-}
-
-FitResult fit_inverse_range(const PointsView& points, const SensorModel& sensor,
-                            bool common_errors) {
-  if (points.size() < 2) return FitResult::failed(FitFailure::too_few_points);
-  const InverseRangeSums sums = inverse_range_sums(points);
-  const auto line = solve_inverse_line({sums.cc, sums.cs, sums.ss}, sums.cz, sums.sz);
-  if (!line) return FitResult::failed(reason_of_singularity(points));
-  const Symmetric2 influence = common_errors
-                                   ? inverse_range_common_influence(points, line->q, sensor)
-                                   : inverse_range_influence(points, line->q, sensor);
-  return to_normal_form(*line, influence);
+FitResult InverseRange::operator()(const PointsView& points, const SensorModel& sensor) const {
+  InverseLine line;
+  const FitFailure failure = solve_inverse_range(points, line);
+  if (failure != FitFailure::none) return FitResult::failed(failure);
+  const RadialStep step = radial_step(points, line.q, WeightVariances(sensor));
+  if (step.failure != FitFailure::none) return FitResult::failed(step.failure);
+  return to_normal_form(step.line, step.information);
 }
 
 }  // namespace quoin

@@ -3,12 +3,13 @@
 #include "core/fitting/utls.hpp"
 
 #include "core/fitting/inverse_line.hpp"
+#include "core/fitting/point_influence.hpp"
 #include "core/sensor/multiversion.hpp"
 
 namespace quoin {
 namespace {
 
-struct Moments {
+struct OriginMoments {
   double x = 0.0;
   double y = 0.0;
   double xx = 0.0;
@@ -18,8 +19,8 @@ struct Moments {
 
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict x, const double* __restrict y, std::size_t count,
-            Moments& out) {
-  Moments sums;
+            OriginMoments& out) {
+  OriginMoments sums;
   for (std::size_t i = 0; i < count; ++i) {
     sums.x += x[i];
     sums.y += y[i];
@@ -33,9 +34,6 @@ void add_up(const double* __restrict x, const double* __restrict y, std::size_t 
 /// Influences of one point on M q, exact derivatives with e = 1 - A x - B y and g = B x - A y:
 ///   range:  (c, s) (2 e - 1)        bearing:  (-y, x) e - (x, y) g
 /// WCTLS eq. (7) in terms of the normalised line; x = rho c, so no division is needed.
-struct PointInfluence {
-  double range_x, range_y, bearing_x, bearing_y;
-};
 inline PointInfluence influence_of(double c, double s, double x, double y, double a, double b) {
   const double e = 1.0 - a * x - b * y;
   const double g = b * x - a * y;
@@ -49,13 +47,8 @@ void add_up_influences(const double* __restrict cosine, const double* __restrict
                        Symmetric2& out) {
   Symmetric2 sums;
   for (std::size_t i = 0; i < count; ++i) {
-    const PointInfluence p = influence_of(cosine[i], sine[i], x[i], y[i], a, b);
-    sums.xx +=
-        range_variance * p.range_x * p.range_x + bearing_variance * p.bearing_x * p.bearing_x;
-    sums.xy +=
-        range_variance * p.range_x * p.range_y + bearing_variance * p.bearing_x * p.bearing_y;
-    sums.yy +=
-        range_variance * p.range_y * p.range_y + bearing_variance * p.bearing_y * p.bearing_y;
+    add_noise(sums, influence_of(cosine[i], sine[i], x[i], y[i], a, b), range_variance,
+              bearing_variance);
   }
   out = sums;
 }
@@ -63,27 +56,20 @@ void add_up_influences(const double* __restrict cosine, const double* __restrict
 /// The outer products of the summed influences: errors common to all points.
 Symmetric2 common_influence(const PointsView& points, double a, double b, double range_variance,
                             double bearing_variance) {
-  PointInfluence sum{};
+  PointInfluence sum;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const PointInfluence p =
-        influence_of(points.cosine[i], points.sine[i], points.x[i], points.y[i], a, b);
-    sum.range_x += p.range_x;
-    sum.range_y += p.range_y;
-    sum.bearing_x += p.bearing_x;
-    sum.bearing_y += p.bearing_y;
+    sum += influence_of(points.cosine[i], points.sine[i], points.x[i], points.y[i], a, b);
   }
-  return {
-      range_variance * sum.range_x * sum.range_x + bearing_variance * sum.bearing_x * sum.bearing_x,
-      range_variance * sum.range_x * sum.range_y + bearing_variance * sum.bearing_x * sum.bearing_y,
-      range_variance * sum.range_y * sum.range_y +
-          bearing_variance * sum.bearing_y * sum.bearing_y};
+  Symmetric2 covariance;
+  add_noise(covariance, sum, range_variance, bearing_variance);
+  return covariance;
 }
 
 }  // namespace
 
 FitResult Utls::operator()(const PointsView& points, const SensorModel& sensor) const {
   if (points.size() < 2) return FitResult::failed(FitFailure::too_few_points);
-  Moments sums;
+  OriginMoments sums;
   add_up(points.x.data(), points.y.data(), points.size(), sums);
   const auto line = solve_inverse_line({sums.xx, sums.xy, sums.yy}, sums.x, sums.y);
   if (!line) return FitResult::failed(reason_of_singularity(points));

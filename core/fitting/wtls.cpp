@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/fitting/wtls.hpp"
 
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/inverse_range_regression.hpp"
 
 namespace quoin {
 

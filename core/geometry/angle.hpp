@@ -15,4 +15,10 @@ inline constexpr double pi = std::numbers::pi;
   return reduced <= -pi ? pi : reduced;
 }
 
+/// Direction of the vector (x, y) in (-pi, pi] [rad].
+[[nodiscard]] inline double direction_of(double x, double y) {
+  const double angle = std::atan2(y, x);
+  return angle <= -pi ? pi : angle;
+}
+
 }  // namespace quoin

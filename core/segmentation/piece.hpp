@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/inverse_range_regression.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/tolerance.hpp"
 #include "core/sensor/points.hpp"

@@ -37,6 +37,7 @@ TEST(World, TravelsThereAndBack) {
 
 TEST(BuiltInWorlds, AreClosedAroundTheirPath) {
   ASSERT_THAT(world_names(), testing::ElementsAre("domestic_room", "environment_a", "environment_b",
+                                                  "cwlf_environment_a", "cwlf_environment_b",
                                                   "corridor", "square_room"));
   EXPECT_FALSE(built_in_world("nowhere"));
   for (const std::string& name : world_names()) {

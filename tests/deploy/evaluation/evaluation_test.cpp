@@ -10,6 +10,7 @@
 
 #include "core/corners/corner_finders.hpp"
 #include "core/evaluation/loop_coverage.hpp"
+#include "core/evaluation/pca_paper.hpp"
 #include "core/evaluation/published_figures.hpp"
 #include "core/evaluation/scan_statistics.hpp"
 #include "core/evaluation/wctls_paper.hpp"
@@ -155,6 +156,19 @@ TEST(Evaluation, PublishedFiguresStandBesideOurs) {
   EXPECT_EQ(environment["methods"][0]["sigma_x"].size(), 23U);
 }
 
+TEST(Evaluation, PcaPaperIsThatOfADirectComputation) {
+  const json report = report_of(quick("pca_paper"));
+  EXPECT_EQ(report["pca_paper"]["trials"], 200);
+  const std::vector<PcaSimulation> simulations = pca_simulations();
+  ASSERT_EQ(report["pca_paper"]["simulations"].size(), simulations.size());
+  const json& entry = report["pca_paper"]["simulations"][1];
+  const PcaComparison direct = compare_pca(simulations[1], 200, derived_seed(1, "pca_paper/1"));
+  EXPECT_EQ(entry["points"], simulations[1].points);
+  EXPECT_EQ(entry["pca"]["angle_rmse"].get<double>(), direct.pca.angle_rmse);
+  EXPECT_EQ(entry["least_squares"]["residual"].get<double>(), direct.least_squares.residual);
+  EXPECT_TRUE(entry["pca"]["seconds"].is_null());
+}
+
 TEST(Evaluation, SegmentersAreJudgedAtFourNoises) {
   const json report = report_of(quick("segmenters"));
   ASSERT_EQ(report["segmenters"].size(), 4U);
@@ -230,8 +244,9 @@ TEST(Evaluation, HtmlHasEveryPlotAndNeedsNoNetwork) {
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(html, Not(HasSubstr("@import")));
   // WCTLS paper: two pictures and a box plot in each environment; consistency: two charts in each
-  // of four settings; the loop: one; segmenters: four; one scan file.
-  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U);
+  // of four settings; the loop: one; segmenters: four; one scan file; PCA paper: one for each
+  // table.
+  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U + 3U);
   EXPECT_EQ(count(html, "<svg"), count(html, "</svg>"));
   for (const SectionKind& kind : section_kinds()) EXPECT_THAT(html, HasSubstr(kind.title));
   for (const char* title :

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/fitting/orthogonal.hpp"
+
+namespace quoin {
+
+/// Weighted orthogonal fit of Arras and Siegwart with the weights 1 / (sigma_rho rho sigma_theta)^2
+/// of the CWLF paper's eq. (3), in the form whose time grows with the number of points instead of
+/// its square (see arras_siegwart_literal.hpp). The standard deviations cancel in the line. The
+/// estimator is biased where the noise along the rays is not across the line.
+///
+/// `as_published` keeps the range noise only, as the reference they compare with does.
+class ArrasSiegwart {
+ public:
+  static constexpr const char* name = "arras_siegwart";
+  static constexpr const char* description = "orthogonal line fit with weights 1 / range^2";
+  static constexpr const char* source =
+      "Arras & Siegwart 1998; Prieto-Fernandez et al. 2024, eq. 3, 16-19";
+
+  using Parameters = CovarianceParameters;
+
+  ArrasSiegwart() = default;
+  explicit ArrasSiegwart(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+/// First step of the method: the line, eq. (16) and (17).
+[[nodiscard]] OrthogonalLine arras_siegwart_line(const PointsView& points);
+
+/// Second step: the covariance of (alpha, r) of that line, eq. (19).
+[[nodiscard]] Eigen::Matrix2d arras_siegwart_covariance(const PointsView& points,
+                                                        const SensorModel& sensor,
+                                                        const OrthogonalLine& fit,
+                                                        CovarianceMode mode);
+
+}  // namespace quoin

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/fitting/axis_regression.hpp"
+
+namespace quoin {
+
+/// Conditional weighted linear fitting: regression of y on x, or of x on y where the points spread
+/// further along y (eq. 20 to 35), each point weighted by the inverse of its conditional variance
+/// (eq. 23, 34). The noise of the abscissa biases the slope.
+///
+/// `as_published`: eq. (31) and (32), which take the conditional variances for those of the
+/// residuals. They never are larger, so that the ellipses come out too small.
+class Cwlf {
+ public:
+  static constexpr const char* name = "cwlf";
+  static constexpr const char* description =
+      "conditional weighted linear fitting: regression along the axis of larger spread";
+  static constexpr const char* source = "Prieto-Fernandez et al. 2024, eq. 20-35";
+
+  using Parameters = CovarianceParameters;
+
+  Cwlf() = default;
+  explicit Cwlf(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+/// First step of the method: the line.
+[[nodiscard]] AxisRegression cwlf_line(const PointsView& points, const SensorModel& sensor);
+
+/// Second step: the covariance of (alpha, r) of that line.
+[[nodiscard]] Eigen::Matrix2d cwlf_covariance(const PointsView& points, const SensorModel& sensor,
+                                              const AxisRegression& fit, CovarianceMode mode);
+
+}  // namespace quoin

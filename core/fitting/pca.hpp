@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/fitting/fit.hpp"
+
+namespace quoin {
+
+/// Orthogonal fit with equal weights: through the mean of the points, along the eigenvector of the
+/// larger eigenvalue of their covariance matrix (principal component analysis). Biased where the
+/// noise along the rays is not across the line.
+///
+/// `as_published`: the paper gives no covariance; this is the textbook one, which takes the scale
+/// of the noise from the residuals, independent of the sensor model. It needs three points.
+class Pca {
+ public:
+  static constexpr const char* name = "pca";
+  static constexpr const char* description =
+      "orthogonal line fit with equal weights by principal components";
+  static constexpr const char* source = "Opromolla et al. 2017, section 2";
+
+  using Parameters = CovarianceParameters;
+
+  Pca() = default;
+  explicit Pca(const Parameters& parameters) : parameters_(parameters) {}
+
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace quoin
