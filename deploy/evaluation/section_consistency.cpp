@@ -108,14 +108,22 @@ class ConsistencySection : public Section {
   }
 
   SummaryTable summary() const override {
-    SummaryTable rows{
-        {"fitter", "covariance", "environment", "noise", "NEES", "coverage [%]", "RMSE/CRB"}};
-    for (const Entry& entry : entries_) {
-      if (!entry.has_corners()) continue;
-      rows.push_back({entry.fitter, entry.covariance, worlds_[entry.world].name,
-                      noise_text(entry.noise), fixed(entry.result.nees.value, 2),
-                      fixed(100.0 * entry.result.coverage95.value, 1),
-                      fixed(entry.result.rmse_over_crb, 3)});
+    SummaryTable rows{{"coverage [%]", "covariance"}};
+    for (const SensorModel& noise : noises_) {
+      for (const World& world : worlds_) {
+        rows[0].push_back(world.name + ", " + fixed(1e3 * noise.range_stddev, 0) + " mm");
+      }
+    }
+    // The entries run through the methods once for each column.
+    const std::size_t columns = noises_.size() * worlds_.size();
+    const std::size_t methods = columns == 0 ? 0 : entries_.size() / columns;
+    for (std::size_t k = 0; k < methods; ++k) {
+      rows.push_back({entries_[k].fitter, entries_[k].covariance});
+      for (std::size_t column = 0; column < columns; ++column) {
+        const Entry& entry = entries_[column * methods + k];
+        rows.back().push_back(entry.has_corners() ? fixed(100.0 * entry.result.coverage95.value, 1)
+                                                  : "-");
+      }
     }
     return rows;
   }

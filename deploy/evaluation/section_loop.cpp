@@ -89,13 +89,11 @@ class LoopSection : public Section {
   }
 
   SummaryTable summary() const override {
-    SummaryTable rows{{"fitter", "segmenter", "environment", "corners/scan", "coverage [%]", "NEES",
-                       "> 4 sigma [%]"}};
+    SummaryTable rows{{"coverage [%]", "segmenter"}};
+    for (const World& world : worlds_) rows[0].push_back(world.name);
     for (const Entry& entry : entries_) {
-      const LoopCoverage& result = entry.result;
-      rows.push_back({entry.fitter, entry.segmenter, worlds_[entry.world].name,
-                      fixed(result.corners_per_scan, 1), fixed(100.0 * result.coverage95.value, 1),
-                      fixed(result.nees.value, 2), fixed(100.0 * result.beyond_four_sigma, 2)});
+      if (entry.world == 0) rows.push_back({entry.fitter, entry.segmenter});
+      rows.back().push_back(fixed(100.0 * entry.result.coverage95.value, 1));
     }
     return rows;
   }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/evaluation/order_statistics.hpp"
 #include "core/evaluation/pca_paper.hpp"
 #include "core/geometry/angle.hpp"
 #include "deploy/evaluation/figures.hpp"
@@ -116,14 +117,18 @@ class PcaPaperSection : public Section {
   }
 
   SummaryTable summary() const override {
-    SummaryTable rows{{"table", "points", "noise [mm]", "outliers [%]", "pca [deg]",
-                       "least_squares [deg]", "pca [us]", "least_squares [us]"}};
-    for (const PcaComparison& row : rows_) {
-      rows.push_back(
-          {std::to_string(row.simulation.table), std::to_string(row.simulation.points),
-           fixed(1e3 * row.simulation.noise, 0), fixed(100.0 * row.simulation.outliers, 0),
-           fixed(degrees * row.pca.angle_rmse, 3), fixed(degrees * row.least_squares.angle_rmse, 3),
-           microseconds(row.pca), microseconds(row.least_squares)});
+    SummaryTable rows{{"pca over least_squares", "varied", "error of direction", "time"}};
+    for (const Variation& variation : variations) {
+      std::vector<double> errors, times;
+      for (const PcaComparison& row : rows_) {
+        if (row.simulation.table != variation.table) continue;
+        errors.push_back(row.pca.angle_rmse / row.least_squares.angle_rmse);
+        if (row.least_squares.seconds > 0.0) {
+          times.push_back(row.pca.seconds / row.least_squares.seconds);
+        }
+      }
+      rows.push_back({"Table " + std::to_string(variation.table) + ", median", variation.title,
+                      fixed(median(errors), 3), times.empty() ? "-" : fixed(median(times), 2)});
     }
     return rows;
   }

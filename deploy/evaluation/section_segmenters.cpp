@@ -128,13 +128,21 @@ class SegmentersSection : public Section {
   }
 
   SummaryTable summary() const override {
+    std::string noises;
+    for (const double stddev : range_stddevs) {
+      noises += (noises.empty() ? "" : " / ") + fixed(1e3 * stddev, 0);
+    }
     SummaryTable rows{
-        {"segmenter", "range noise [mm]", "true positives [%]", "false positives [%]", "scans/s"}};
-    for (const Entry& entry : entries_) {
-      rows.push_back({entry.segmenter, fixed(1e3 * entry.noise.range_stddev, 0),
-                      fixed(100.0 * entry.result.true_positive_rate.value, 1),
-                      fixed(100.0 * entry.result.false_positive_rate.value, 1),
-                      entry.scans_per_second ? fixed(*entry.scans_per_second, 0) : "-"});
+        {"at " + noises + " mm", "true positives [%]", "false positives [%]", "1000 scans/s"}};
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Entry& entry = entries_[k];
+      const bool first = k % range_stddevs.size() == 0;
+      if (first) rows.push_back({entry.segmenter, "", "", ""});
+      const std::string between = first ? "" : " / ";
+      rows.back()[1] += between + fixed(100.0 * entry.result.true_positive_rate.value, 1);
+      rows.back()[2] += between + fixed(100.0 * entry.result.false_positive_rate.value, 1);
+      rows.back()[3] +=
+          between + (entry.scans_per_second ? fixed(1e-3 * *entry.scans_per_second, 1) : "-");
     }
     return rows;
   }
