@@ -3,11 +3,13 @@
 #include "core/evaluation/consistency.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/LU>
 
 #include "core/evaluation/cramer_rao.hpp"
+#include "core/evaluation/order_statistics.hpp"
 #include "core/geometry/corner.hpp"
 
 namespace quoin {
@@ -27,11 +29,14 @@ struct Sums {
   [[nodiscard]] Interval mean() const { return quoin::mean(sum, squares, count); }
 };
 
+constexpr std::size_t batch_count = 20;  // enough to know a spread to a sixth of itself
+
 struct CornerSums {
   Sums nees;
   std::size_t covered = 0;
   double squared_error = 0.0;  // [m^2]
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
+  std::array<Sums, batch_count> batches;  // of the squared error [m^2]
 };
 
 /// Root of the mean squared distance [m] at the bound, for each corner.
@@ -51,11 +56,31 @@ std::vector<double> corner_bounds(const Scene& scene, const SensorModel& noise) 
   return bounds;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+/// Median over the corners of the root mean squared error over its bound, with the spread of the
+/// same in batches of trials; without a spread when some batch has no trial.
+Interval rmse_over_bound(const std::vector<CornerSums>& corners,
+                         const std::vector<double>& bounds) {
+  std::vector<double> ratios;
+  std::array<std::vector<double>, batch_count> batches;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::size_t count = corners[k].nees.count;
+    if (count == 0 || !(bounds[k] > 0.0)) continue;
+    ratios.push_back(std::sqrt(corners[k].squared_error / static_cast<double>(count)) / bounds[k]);
+    for (std::size_t b = 0; b < batch_count; ++b) {
+      const Sums& sums = corners[k].batches[b];
+      if (sums.count > 0) batches[b].push_back(std::sqrt(sums.mean().value) / bounds[k]);
+    }
+  }
+  const double value = median(std::move(ratios));
+  Sums spread;
+  for (std::vector<double>& batch : batches) {
+    if (batch.empty()) return {value, value, value};
+    spread.add(median(std::move(batch)));
+  }
+  const Interval around = spread.mean();
+  // Small batches make the root of a mean a little too small: the spread is theirs, the middle not.
+  const double half = 0.5 * (around.high - around.low);
+  return {value, value - half, value + half};
 }
 
 }  // namespace
@@ -92,6 +117,7 @@ Consistency judge_consistency(const Fitter& fitter, const Scene& scene, const Se
       corners[k].nees.add(squared);
       corners[k].covered += covered ? 1 : 0;
       corners[k].squared_error += error.squaredNorm();
+      corners[k].batches[trial % batch_count].add(error.squaredNorm());
       corners[k].error += error;
       trial_nees += squared;
       trial_covered += covered ? 1 : 0;
@@ -105,7 +131,6 @@ Consistency judge_consistency(const Fitter& fitter, const Scene& scene, const Se
   result.nees = nees.mean();
   result.coverage95 = coverage.mean();
   const std::vector<double> bounds = corner_bounds(scene, noise);
-  std::vector<double> ratios;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const CornerSums& sums = corners[k];
     if (sums.nees.count == 0) continue;
@@ -121,10 +146,10 @@ Consistency judge_consistency(const Fitter& fitter, const Scene& scene, const Se
     const double standard_error = std::sqrt(0.95 * 0.05 / count);
     result.worst_corner =
         std::max(result.worst_corner, std::abs(corner.coverage95.value - 0.95) / standard_error);
-    ratios.push_back(corner.rmse / corner.bound);
     result.corners.push_back(corner);
   }
-  result.rmse_over_crb = median(std::move(ratios));
+  result.rmse_over_crb_interval = rmse_over_bound(corners, bounds);
+  result.rmse_over_crb = result.rmse_over_crb_interval.value;
   return result;
 }
 

@@ -32,9 +32,10 @@ struct CornerConsistency {
 /// true walls.
 struct Consistency {
   std::size_t trials = 0;
-  Interval nees;               ///< over all corners
-  Interval coverage95;         ///< over all corners
-  double rmse_over_crb = 0.0;  ///< median over the corners
+  Interval nees;                    ///< over all corners
+  Interval coverage95;              ///< over all corners
+  double rmse_over_crb = 0.0;       ///< median over the corners
+  Interval rmse_over_crb_interval;  ///< the same, spread taken from batches of the trials
   /// Largest distance of a corner's coverage from 95 %, in standard errors of that coverage.
   double worst_corner = 0.0;
   FailureCounts failures{};

@@ -63,7 +63,8 @@ struct Projection {
   Box box;
   double scale = 1.0;  // pixels per metre
 
-  explicit Projection(const Drawing& drawing, double width) {
+  /// `ellipse_scale` is 0 when the ellipses are to follow the size of the picture.
+  Projection(const Drawing& drawing, double width, double ellipse_scale) {
     for (const DrawnPoint& point : drawing.points) box.include(point);
     for (const DrawnLine& line : drawing.lines) {
       box.include(line.start);
@@ -73,6 +74,7 @@ struct Projection {
     for (const DrawnCorner& corner : drawing.corners) {
       if (drawing.points.empty()) box.include(corner.position);
     }
+    include_ellipses(drawing, ellipse_scale);
     const double border =
         0.04 * std::max({box.right - box.left, box.top - box.bottom, smallest_extent});
     box.left -= border;
@@ -86,6 +88,24 @@ struct Projection {
     const double spare = (width - 2.0 * margin) / scale - (box.right - box.left);
     box.left -= 0.5 * spare;
     box.right += 0.5 * spare;
+  }
+
+  /// Makes room for ellipses of a given scale, at most twice as much as without.
+  void include_ellipses(const Drawing& drawing, double ellipse_scale) {
+    const Box without = box;
+    const double most = 0.5 * std::max(box.right - box.left, box.top - box.bottom);
+    for (const DrawnCorner& corner : drawing.corners) {
+      const DrawnPoint& at = corner.position;
+      if (!finite(corner) || at.x < without.left || at.x > without.right || at.y < without.bottom ||
+          at.y > without.top) {
+        continue;
+      }
+      const double c = std::cos(corner.direction), s = std::sin(corner.direction);
+      const double dx = ellipse_scale * std::hypot(corner.semi_major * c, corner.semi_minor * s);
+      const double dy = ellipse_scale * std::hypot(corner.semi_major * s, corner.semi_minor * c);
+      box.include({at.x - std::min(dx, most), at.y - std::min(dy, most)});
+      box.include({at.x + std::min(dx, most), at.y + std::min(dy, most)});
+    }
   }
 
   [[nodiscard]] double x(double metres) const { return margin + (metres - box.left) * scale; }
@@ -129,11 +149,16 @@ void draw_scan(Svg& svg, const Drawing& drawing, const Projection& to) {
   svg.close("g");
 }
 
+std::string ellipse_style(std::size_t series) {
+  return series == 0 ? "uncertainty"
+                     : "uncertainty s" + std::to_string(std::min<std::size_t>(series, 2));
+}
+
 /// Returns how many corners lie outside the picture.
 std::size_t draw_corners(Svg& svg, const Drawing& drawing, const Projection& to,
                          double ellipse_scale) {
   std::size_t outside = 0;
-  svg.open("g", {{"class", "corners"}});
+  svg.open("g", {{"class", drawing.series.empty() ? "corners" : "corners compared"}});
   for (const DrawnCorner& corner : drawing.corners) {
     if (!finite(corner) || !to.shows(corner.position)) {
       ++outside;
@@ -143,8 +168,8 @@ std::size_t draw_corners(Svg& svg, const Drawing& drawing, const Projection& to,
     const double x = to.x(corner.position.x);
     const double y = to.y(corner.position.y);
     // SVG's y axis points down, so that its rotations run the other way.
-    svg.ellipse("uncertainty", x, y, corner.semi_major * enlarged, corner.semi_minor * enlarged,
-                -corner.direction * degrees_per_radian);
+    svg.ellipse(ellipse_style(corner.series), x, y, corner.semi_major * enlarged,
+                corner.semi_minor * enlarged, -corner.direction * degrees_per_radian);
     svg.circle("corner", x, y, 2.5);
   }
   svg.close("g");
@@ -187,14 +212,23 @@ void draw_legend(Svg& svg, const Drawing& drawing, double ellipse_scale, std::si
   entry(std::to_string(drawing.lines.size()) + " lines");
   svg.ellipse("uncertainty", x, y, 9.0, 5.0, 0.0);
   svg.circle("corner", x, y, 2.5);
-  std::string text = std::to_string(drawing.corners.size()) + " corners with 95 % ellipses, ";
+  const std::size_t sets = std::max<std::size_t>(1, drawing.series.size());
+  std::string text =
+      std::to_string(drawing.corners.size() / sets) + " corners with " + drawing.ellipses + ", ";
   text += ellipse_scale == 1.0 ? "to scale" : "enlarged " + number(ellipse_scale, 3) + " times";
   if (outside > 0) text += " (" + std::to_string(outside) + " outside the picture)";
   entry(text);
+  x = margin;
+  y += 24.0;
+  for (std::size_t k = 0; k < drawing.series.size(); ++k) {
+    svg.ellipse(ellipse_style(k), x, y, 9.0, 5.0, 0.0);
+    entry(drawing.series[k]);
+  }
   svg.close("g");
 }
 
-constexpr auto style =
+constexpr StyleSheet style{
+
     "text{font-family:sans-serif;fill:#222}"
     ".title{font-size:17px;font-weight:bold}.caption,.legend{font-size:13px}"
     ".tick{font-size:11px;fill:#666}.middle{text-anchor:middle}.end{text-anchor:end}"
@@ -202,7 +236,15 @@ constexpr auto style =
     ".point{fill:#4a6fa5}.fitted{stroke:#e07b00;stroke-width:2;stroke-linecap:round}"
     ".uncertainty{fill:#c62828;fill-opacity:.18;stroke:#c62828;stroke-width:1.2}"
     ".corner{fill:#c62828}.sensor{fill:#2e7d32;stroke:#2e7d32;stroke-width:2}"
-    ".bar{stroke:#222;stroke-width:1.5}";
+    ".compared ellipse{fill-opacity:0;stroke-width:1.8}"
+    ".s1{fill:#00695c;stroke:#00897b;stroke-dasharray:7 3}"
+    ".s2{fill:#1565c0;stroke:#1e6fd0;stroke-dasharray:2 2}"
+    ".bar{stroke:#222;stroke-width:1.5}",
+    ".background{fill:#14171c}text{fill:#e4e6ea}.tick{fill:#9aa3ad}.minor{stroke:#2a2f37}"
+    ".axis{stroke:#59616c}.point{fill:#8fb4e8}.fitted{stroke:#ffa94d}"
+    ".uncertainty{fill:#ff7a7a;stroke:#ff7a7a}.corner{fill:#ff7a7a}"
+    ".s1{fill:#4fd1c0;stroke:#4fd1c0}.s2{fill:#6cb2ff;stroke:#6cb2ff}"
+    ".sensor{fill:#7ddc85;stroke:#7ddc85}.bar{stroke:#e4e6ea}"};
 
 }  // namespace
 
@@ -219,11 +261,12 @@ double readable_ellipse_scale(const Drawing& drawing, double pixels_per_metre) {
 }
 
 std::string draw_svg(const Drawing& drawing, const DrawingOptions& options) {
-  const Projection to(drawing, options.width);
+  const Projection to(drawing, options.width, options.ellipse_scale);
   const double scale = options.ellipse_scale > 0.0 ? options.ellipse_scale
                                                    : readable_ellipse_scale(drawing, to.scale);
   const double step = grid_step(to.scale);
-  Svg svg(options.width, to.bottom() + legend_height, style);
+  const double series_height = drawing.series.empty() ? 0.0 : 24.0;
+  Svg svg(options.width, to.bottom() + legend_height + series_height, "scan", style);
   svg.text("title", margin, 26.0, drawing.title);
   svg.text("caption", margin, 46.0, drawing.caption);
   draw_grid(svg, to, step);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,10 @@ struct DrawnLine {
 
 struct DrawnCorner {
   DrawnPoint position;
-  double semi_major = 0.0;  ///< [m] of the 95 % ellipse
+  double semi_major = 0.0;  ///< [m] of the ellipse
   double semi_minor = 0.0;  ///< [m]
   double direction = 0.0;   ///< [rad] of the major axis
+  std::size_t series = 0;   ///< index in Drawing::series
 };
 
 /// One scan with what was found in it.
@@ -32,6 +34,9 @@ struct Drawing {
   std::vector<DrawnPoint> points;
   std::vector<DrawnLine> lines;
   std::vector<DrawnCorner> corners;
+  std::string ellipses = "95 % ellipses";  ///< what the ellipses are
+  /// Names of up to three sets of corners that are to be told apart; none when there is one set.
+  std::vector<std::string> series;
 };
 
 struct DrawingOptions {

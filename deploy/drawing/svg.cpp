@@ -9,7 +9,10 @@ namespace quoin::deploy {
 
 namespace {
 
-/// Text that XML takes as it is; control characters, which it forbids, become blanks.
+std::string pixels(double value) { return number(value, 2); }
+
+}  // namespace
+
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char character : text) {
@@ -33,10 +36,6 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string pixels(double value) { return number(value, 2); }
-
-}  // namespace
-
 std::string number(double value, int digits) {
   std::array<char, 400> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
@@ -48,16 +47,42 @@ std::string number(double value, int digits) {
   return text == "-0" ? "0" : text;
 }
 
-Svg::Svg(double width, double height, std::string_view style_sheet) {
+std::string scoped(std::string_view scope, std::string_view rules) {
+  std::string result;
+  while (!rules.empty()) {
+    const std::size_t brace = rules.find('{');
+    const std::size_t end = rules.find('}');
+    if (brace == std::string_view::npos || end == std::string_view::npos) break;
+    std::string_view selectors = rules.substr(0, brace);
+    while (true) {
+      const std::size_t comma = selectors.find(',');
+      result.append(scope).append(" ").append(selectors.substr(0, comma));
+      if (comma == std::string_view::npos) break;
+      result += ',';
+      selectors.remove_prefix(comma + 1);
+    }
+    result += rules.substr(brace, end + 1 - brace);
+    rules.remove_prefix(end + 1);
+  }
+  return result;
+}
+
+Svg::Svg(double width, double height, const std::string& kind, const StyleSheet& style_sheet) {
   text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+               {"class", kind},
                {"width", pixels(width)},
                {"height", pixels(height)},
                {"viewBox", "0 0 " + pixels(width) + " " + pixels(height)}});
-  text_ += "<style>";
-  text_ += style_sheet;
+  text_ += "<style>" + scoped("." + kind, style_sheet.rules);
+  if (!style_sheet.dark_rules.empty()) {
+    text_ +=
+        "\n@media (prefers-color-scheme:dark){" + scoped("." + kind, style_sheet.dark_rules) + "}";
+  }
   text_ += "</style>\n";
-  element("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#ffffff"}}, "/>\n");
+  element("rect",
+          {{"class", "background"}, {"width", "100%"}, {"height", "100%"}, {"fill", "#ffffff"}},
+          "/>\n");
 }
 
 void Svg::element(std::string_view name, const Attributes& attributes, std::string_view end) {
@@ -110,8 +135,33 @@ void Svg::ellipse(std::string_view style, double x, double y, double rx, double 
           "/>\n");
 }
 
+void Svg::rectangle(std::string_view style, double x, double y, double width, double height) {
+  element("rect",
+          {{"class", std::string(style)},
+           {"x", pixels(x)},
+           {"y", pixels(y)},
+           {"width", pixels(width)},
+           {"height", pixels(height)}},
+          "/>\n");
+}
+
+void Svg::path(std::string_view style, const std::string& commands) {
+  element("path", {{"class", std::string(style)}, {"d", commands}}, "/>\n");
+}
+
 void Svg::text(std::string_view style, double x, double y, std::string_view text) {
   element("text", {{"class", std::string(style)}, {"x", pixels(x)}, {"y", pixels(y)}}, ">");
+  text_ += escaped(text);
+  close("text");
+}
+
+void Svg::vertical_text(std::string_view style, double x, double y, std::string_view text) {
+  element("text",
+          {{"class", std::string(style)},
+           {"x", pixels(x)},
+           {"y", pixels(y)},
+           {"transform", "rotate(-90 " + pixels(x) + " " + pixels(y) + ")"}},
+          ">");
   text_ += escaped(text);
   close("text");
 }

@@ -12,11 +12,24 @@ namespace quoin::deploy {
 /// `value` with at most `digits` digits behind the point and no trailing zeros.
 [[nodiscard]] std::string number(double value, int digits);
 
+/// Text that XML and HTML take as it is; control characters, which XML forbids, become blanks.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// Rules for the classes of one kind of picture, and what is different on a dark background.
+struct StyleSheet {
+  std::string_view rules;
+  std::string_view dark_rules;
+};
+
+/// `rules` with `scope` in front of each selector, so that several pictures can stand in one page.
+[[nodiscard]] std::string scoped(std::string_view scope, std::string_view rules);
+
 /// Writes the few SVG elements that a picture is made of. Lengths are pixels, y points down;
 /// `style` names are classes of the style sheet.
 class Svg {
  public:
-  Svg(double width, double height, std::string_view style_sheet);
+  /// `kind` is the class of the picture, to which its style sheet is confined.
+  Svg(double width, double height, const std::string& kind, const StyleSheet& style_sheet);
 
   using Attributes = std::vector<std::pair<std::string_view, std::string>>;
   void open(std::string_view element, const Attributes& attributes);
@@ -25,7 +38,12 @@ class Svg {
   void circle(std::string_view style, double x, double y, double radius);
   /// `rotation` [degree] turns clockwise on the screen.
   void ellipse(std::string_view style, double x, double y, double rx, double ry, double rotation);
+  void rectangle(std::string_view style, double x, double y, double width, double height);
+  /// `commands` are those of the attribute d.
+  void path(std::string_view style, const std::string& commands);
   void text(std::string_view style, double x, double y, std::string_view text);
+  /// Text that runs upwards.
+  void vertical_text(std::string_view style, double x, double y, std::string_view text);
 
   /// Ends the document and returns it.
   [[nodiscard]] std::string finish();

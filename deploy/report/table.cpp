@@ -12,24 +12,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// Columns as wide as their widest cell; the first `left` columns are aligned to the left.
-void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t width,
-                  std::vector<std::string>& lines) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - row[i].size(), ' ');
-      if (i > 0) line += "  ";
-      line += i < left ? row[i] + padding : padding + row[i];
-    }
-    lines.push_back(line.substr(0, width));
-  }
-}
-
 std::string milliseconds_pair(double first, double second) {
   if (first <= 0.0 && second <= 0.0) return "-";
   return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
@@ -61,6 +43,23 @@ Row corner_row(const CornerFigures& corner) {
 }
 
 }  // namespace
+
+void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t width,
+                  std::vector<std::string>& lines) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - row[i].size(), ' ');
+      if (i > 0) line += "  ";
+      line += i < left ? row[i] + padding : padding + row[i];
+    }
+    lines.push_back(line.substr(0, width));
+  }
+}
 
 std::string fixed(double value, int digits) {
   std::array<char, 64> buffer{};

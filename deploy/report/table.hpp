@@ -13,6 +13,11 @@ namespace quoin::deploy {
 /// `value` with `digits` digits behind the point.
 [[nodiscard]] std::string fixed(double value, int digits);
 
+/// Appends `rows` as lines of at most `width` characters, columns as wide as their widest cell; the
+/// first `left` columns are aligned to the left. All rows have as many cells as the first.
+void append_table(const std::vector<std::vector<std::string>>& rows, std::size_t left,
+                  std::size_t width, std::vector<std::string>& lines);
+
 /// The figures as lines of a table of at most `width` characters: the services, then what the
 /// corner services delivered.
 [[nodiscard]] std::vector<std::string> table_lines(const DeploymentFigures& figures,

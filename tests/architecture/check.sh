@@ -8,24 +8,29 @@ set -u
 cd "${1:?source tree}" || exit 2
 violations=0
 
-# deny FOLDER PATTERN WHY: no source file below FOLDER includes what PATTERN (an extended regular
-# expression on the include's path) matches.
+# deny FOLDER PATTERN WHY [EXCEPT]: no source file below FOLDER includes what PATTERN (an extended
+# regular expression on the include's path) matches, but for lines "file:line:#include ..." that
+# match EXCEPT.
 deny() {
   local found
-  found=$(grep -rnE --include='*.hpp' --include='*.cpp' "^#include [<\"]($2)" "$1") || return 0
+  found=$(grep -rnE --include='*.hpp' --include='*.cpp' "^#include [<\"]($2)" "$1" |
+    grep -vE "${4:-^$}") || return 0
   printf '%s\n%s\n' "$3:" "$found"
   violations=$((violations + 1))
 }
 
-segmenters='iepf|split_and_merge|successive_edge_following|line_tracking|line_regression|ransac|hough|expectation_maximization|hierarchical'
-fitters='utls|wtls|wctls|cwlf|arras_siegwart|pca|least_squares|maximum_likelihood|inverse_range'
 dds='fastdds|fastrtps|fastcdr|.*PubSubTypes\.h'
 deny core "$dds|idl/|yaml-cpp|fstream|iostream|spdlog|services/|deploy/|sensor_bridge/" \
   "core/ knows no DDS, no YAML, no files and nobody else"
 deny sensor_bridge "$dds|spdlog" "sensor_bridge/ reaches DDS through the service kit only"
 deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
-deny deploy "core/(segmentation/($segmenters)|fitting/($fitters)|corners/adjacent|simulation)" \
-  "deploy/ describes methods through the method lists and runs none"
+deny deploy 'core/(segmentation|fitting|corners)/' "deploy/ reaches methods through the method lists" \
+  'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?)\.hpp'
+# `quoin evaluate` is there to run methods; what starts and watches processes runs none.
+deny deploy 'core/(evaluation/(consistency|extraction|loop_coverage|segmentation_quality)|simulation)' \
+  "deploy/ runs no methods outside deploy/evaluation" '^deploy/evaluation/'
+deny deploy/evaluation 'deploy/(deployment|quoin|supervision)/|idl/|services/' \
+  "the evaluation needs no DDS and no deployment"
 deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
 deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
 for stage in segmentation line_fitting corner_estimation; do

@@ -71,6 +71,10 @@ TEST(Consistency, IsTrueOfPropagatedCovariancesAndRepeatsItself) {
   EXPECT_LT(first.coverage95.low, first.coverage95.value);
   EXPECT_GT(first.rmse_over_crb, 0.95);
   EXPECT_LT(first.rmse_over_crb, 1.1);
+  EXPECT_LT(first.rmse_over_crb_interval.low, first.rmse_over_crb);
+  EXPECT_GT(first.rmse_over_crb_interval.high, first.rmse_over_crb);
+  // Relative error of a root mean square of n Gaussian pairs: 1 / (2 sqrt(n)), 400 trials.
+  EXPECT_LT(first.rmse_over_crb_interval.high - first.rmse_over_crb_interval.low, 4.0 * 0.025);
   EXPECT_LT(first.worst_corner, 5.0);
   EXPECT_EQ(first.corners.size(), 18U);
 }

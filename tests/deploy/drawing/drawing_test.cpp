@@ -140,6 +140,24 @@ TEST(Drawing, AFarCornerDoesNotShrinkTheRoom) {
   EXPECT_DOUBLE_EQ(points_of(svg).at(0).x, points_of(draw_svg(room())).at(0).x);
 }
 
+TEST(Drawing, TellsSetsOfEllipsesApartAndMakesRoomForThem) {
+  Drawing drawing = room();
+  drawing.series = {"wctls", "utls"};
+  drawing.ellipses = "one-sigma ellipses";
+  drawing.corners.push_back({{4.0, 3.0}, 0.1, 0.1, 0.0, 1});
+  DrawingOptions options;
+  options.ellipse_scale = 10.0;
+  const std::string svg = draw_svg(drawing, options);
+  expect_well_formed(svg);
+  EXPECT_THAT(svg, HasSubstr("1 corners with one-sigma ellipses, enlarged 10 times"));
+  EXPECT_THAT(svg, HasSubstr(">utls<"));
+  const auto large = svg_elements(svg, "uncertainty s1");
+  ASSERT_EQ(large.size(), 2U);  // the second is in the legend
+  // Enlarged to a radius of 1 m above and to the right of the room, below the captions.
+  EXPECT_GT(large[0].number("cy") - large[0].number("ry"), 60.0);
+  EXPECT_LT(large[0].number("cx") + large[0].number("rx"), options.width);
+}
+
 TEST(Drawing, OfAnyExtentHasReadableGrid) {
   for (const double extent : {0.3, 1.0, 7.0, 40.0, 500.0, 20000.0}) {
     Drawing drawing;

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace quoin {
+
+/// Value below which the fraction `q` (0..1) of all lies, linear between neighbours; 0 when there
+/// is none.
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+
+[[nodiscard]] inline double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+/// What a box plot shows of values: whiskers reach to the last value within 1.5 times the distance
+/// of the quartiles from the box.
+struct BoxSummary {
+  double low = 0.0;
+  double first_quartile = 0.0;
+  double median = 0.0;
+  double third_quartile = 0.0;
+  double high = 0.0;
+  std::vector<double> outliers;
+};
+
+[[nodiscard]] BoxSummary box_summary(const std::vector<double>& values);
+
+/// Standard deviation of the values around their mean; 0 for fewer than two.
+[[nodiscard]] double standard_deviation(const std::vector<double>& values);
+
+}  // namespace quoin

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/corners/corner_finder.hpp"
+#include "core/fitting/fit.hpp"
+#include "core/segmentation/segment.hpp"
+#include "core/sensor/sensor_model.hpp"
+#include "core/simulation/world.hpp"
+
+namespace quoin {
+
+/// The sensor model of the WCTLS paper's section 4: the data sheet's accuracy and resolution of the
+/// RPLIDAR S1 taken for standard deviations (50 mm, 0.391 deg).
+[[nodiscard]] SensorModel data_sheet_model();
+
+/// A fitter in one covariance mode, under the name it has in the results.
+struct NamedFitter {
+  std::string name;
+  CovarianceMode covariance = CovarianceMode::propagated;
+  Fitter fitter;
+};
+
+struct WctlsPaperMethod {
+  std::string fitter;
+  CovarianceMode covariance = CovarianceMode::propagated;
+  /// What the representative scan gave for each true corner; nothing where it was not found.
+  std::vector<std::optional<CornerEstimate>> corners;
+  std::vector<double> median_areas;  ///< [m^2] of each scan's one-sigma ellipses (Fig. 4)
+};
+
+/// What the paper shows of one environment.
+struct WctlsPaperEnvironment {
+  std::string world;
+  std::size_t rays = 0;
+  std::size_t scans = 0;
+  std::size_t representative = 0;       ///< number of the scan that the tables and Fig. 3 show
+  std::vector<Eigen::Vector2d> truth;   ///< [m] the corners in sight, clockwise as in the paper
+  std::vector<Eigen::Vector2d> points;  ///< [m] of the representative scan
+  std::vector<LineSegment> lines;       ///< of the representative scan, by the first fitter
+  std::vector<WctlsPaperMethod> methods;
+};
+
+/// The experiment of the paper's section 4 on a simulated world: repeated scans of a resting sensor
+/// with `noise`, segmented with that, covariances computed from `data_sheet_model()`. The
+/// representative scan is the first of those in which most corners are found.
+[[nodiscard]] WctlsPaperEnvironment repeat_wctls_paper(const World& world,
+                                                       const Segmenter& segmenter,
+                                                       const CornerFinder& finder,
+                                                       const std::vector<NamedFitter>& fitters,
+                                                       const SensorModel& noise, std::size_t scans,
+                                                       std::uint64_t seed);
+
+}  // namespace quoin

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/evaluation/figures.hpp"
+
+#include "core/geometry/angle.hpp"
+#include "deploy/drawing/svg.hpp"
+#include "deploy/report/table.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+/// Calls `tell` with the name and the count of each failure that occurred.
+template <class Function>
+void for_each_failure(const FailureCounts& failures, const Function& tell) {
+  for (const auto& [failure, name] : EnumNames<FitFailure>::names) {
+    const std::size_t count = failures[static_cast<std::size_t>(failure)];
+    if (failure != FitFailure::none && count > 0) tell(std::string(name), count);
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json interval_json(const Interval& interval) {
+  return nlohmann::ordered_json::array({interval.low, interval.high});
+}
+
+void add_interval(nlohmann::ordered_json& object, const std::string& name,
+                  const Interval& interval) {
+  object[name] = interval.value;
+  object[name + "_interval"] = interval_json(interval);
+}
+
+nlohmann::ordered_json failures_json(const FailureCounts& failures) {
+  auto object = nlohmann::ordered_json::object();
+  for_each_failure(failures,
+                   [&](const std::string& name, std::size_t count) { object[name] = count; });
+  return object;
+}
+
+std::string failures_text(const FailureCounts& failures) {
+  std::string text;
+  for_each_failure(failures, [&](const std::string& name, std::size_t count) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  });
+  return text.empty() ? "-" : text;
+}
+
+void add_published(nlohmann::ordered_json& report, const PublishedComparison& comparison) {
+  nlohmann::ordered_json entry{{"paper", comparison.paper},         {"place", comparison.place},
+                               {"quantity", comparison.quantity},   {"unit", comparison.unit},
+                               {"published", comparison.published}, {"measured", nullptr}};
+  if (comparison.measured) entry["measured"] = *comparison.measured;
+  report["published"].push_back(std::move(entry));
+}
+
+std::string interval_text(const Interval& interval, int digits, double factor) {
+  return fixed(interval.value * factor, digits) + " [" + fixed(interval.low * factor, digits) +
+         ", " + fixed(interval.high * factor, digits) + "]";
+}
+
+PlottedInterval plotted(const Interval& interval, double factor) {
+  return {interval.value * factor, interval.low * factor, interval.high * factor};
+}
+
+std::string noise_text(const SensorModel& noise) {
+  return number(noise.range_stddev * 1e3, 1) + " mm, " +
+         number(noise.bearing_stddev * 180.0 / pi, 3) + " deg";
+}
+
+SensorModel rplidar_noise(double range_stddev) {
+  SensorModel noise;
+  noise.range_stddev = range_stddev;
+  return noise;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fitting/fit.hpp"
+#include "core/segmentation/segment.hpp"
+#include "core/simulation/world.hpp"
+#include "sensor_bridge/replay/recorded_scan.hpp"
+
+namespace quoin::deploy {
+
+/// An option that cannot be used: which, what is wrong, what to do.
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the user asks for; empty lists mean what each section shows by default.
+struct EvaluationOptions {
+  std::vector<std::string> segmenters;
+  std::vector<std::string> fitters;
+  std::vector<std::string> worlds;  ///< names of built-in worlds or paths of world files
+  std::vector<std::string> scans;   ///< paths of scan files or folders of them
+  std::vector<std::string> only;    ///< names of sections
+  std::size_t trials = 2000;
+  std::size_t scans_per_world = 200;
+  std::uint64_t seed = 1;
+  std::size_t threads = 1;
+  bool timing = true;   ///< figures that differ from run to run
+  std::string version;  ///< of the program, for the report
+};
+
+struct ScanFile {
+  std::string name;
+  std::vector<sensor_bridge::RecordedScan> scans;
+};
+
+/// The options with everything in them looked up and read.
+struct EvaluationSetup {
+  EvaluationOptions options;
+  std::vector<std::string> fitters;          ///< the chosen ones, or all
+  std::vector<std::string> segmenters;       ///< the chosen ones, or all
+  std::vector<std::string> loop_segmenters;  ///< the chosen ones, or the default
+  std::vector<World> worlds;                 ///< the given ones, or none
+  std::vector<ScanFile> scan_files;
+};
+
+/// Throws OptionError, WorldError or ScanFileError.
+[[nodiscard]] EvaluationSetup prepare(const EvaluationOptions& options);
+
+/// The given worlds, or the built-in ones of these names.
+[[nodiscard]] std::vector<World> worlds_or(const EvaluationSetup& setup,
+                                           const std::vector<std::string>& names);
+
+/// The covariance modes that a fitter offers; "" for one without a choice.
+[[nodiscard]] std::vector<std::string> covariance_modes(std::string_view fitter);
+[[nodiscard]] Fitter make_fitter(std::string_view name, const std::string& covariance);
+[[nodiscard]] Segmenter make_segmenter(std::string_view name);
+
+}  // namespace quoin::deploy

@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/evaluation/evaluation.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/corners/corner_finders.hpp"
+#include "core/evaluation/loop_coverage.hpp"
+#include "core/evaluation/pca_paper.hpp"
+#include "core/evaluation/published_figures.hpp"
+#include "core/evaluation/scan_statistics.hpp"
+#include "core/evaluation/wctls_paper.hpp"
+#include "deploy/evaluation/figures.hpp"
+#include "deploy/evaluation/jobs.hpp"
+#include "deploy/evaluation/progress_display.hpp"
+#include "deploy/evaluation/sections.hpp"
+#include "tests/sensor_bridge/temporary_folder.hpp"
+
+namespace quoin::deploy {
+namespace {
+
+using nlohmann::json;
+using quoin::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+bool always(const EvaluationProgress&) { return true; }
+
+/// Few trials of two fitters, nothing that depends on time.
+EvaluationOptions quick(const std::string& section) {
+  EvaluationOptions options;
+  options.only = {section};
+  options.fitters = {"utls", "wctls"};
+  options.segmenters = {"iepf"};
+  options.trials = 40;
+  options.scans_per_world = 3;
+  options.timing = false;
+  options.version = "1.2.3";
+  return options;
+}
+
+json report_of(const EvaluationOptions& options) {
+  return json::parse(evaluate(prepare(options), always).json);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+/// A scan of the square room as a CSV file.
+std::string csv_scan() {
+  ScannerSettings settings;
+  SimulatedScanner scanner(built_in_world("square_room").value(), settings, 4);
+  SimulatedScan scan;
+  scanner.scan(0.0, 0.0, scan);
+  std::string text;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    text += std::to_string(scan.bearings[i]) + "," + std::to_string(scan.ranges[i]) + "\n";
+  }
+  return text;
+}
+
+TEST(Evaluation, ConsistencyIsThatOfADirectComputation) {
+  const json report = report_of(quick("consistency"));
+  EXPECT_EQ(report["version"], "1.2.3");
+  EXPECT_EQ(report["seed"], 1);
+  EXPECT_EQ(report["trials"], 40);
+  EXPECT_EQ(report["options"]["fitters"], json({"utls", "wctls"}));
+  // Two fitters in two modes, two environments, two noises.
+  ASSERT_EQ(report["fitters"].size(), 16U);
+  const json& entry = report["fitters"][0];
+  EXPECT_EQ(entry["name"], "utls");
+  EXPECT_EQ(entry["covariance"], "propagated");
+  EXPECT_EQ(entry["environment"], "environment_a");
+  EXPECT_DOUBLE_EQ(entry["range_stddev"].get<double>(), 0.05);
+  EXPECT_NEAR(entry["bearing_stddev"].get<double>(), 0.391 * 3.14159265 / 180.0, 1e-9);
+
+  const World world = built_in_world("environment_a").value();
+  const SensorModel noise = data_sheet_model();
+  const Consistency direct = judge_consistency(
+      make_fitter("utls", "propagated"), observe(world, world.pose_at(0.0), 935, 5), noise, 40,
+      derived_seed(1, "consistency/environment_a/" + noise_text(noise)));
+  EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
+  EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
+  EXPECT_EQ(entry["coverage95_interval"][0].get<double>(), direct.coverage95.low);
+  EXPECT_EQ(entry["coverage95_interval"][1].get<double>(), direct.coverage95.high);
+  EXPECT_EQ(entry["rmse_over_crb"].get<double>(), direct.rmse_over_crb);
+  EXPECT_EQ(entry["worst_corner"].get<double>(), direct.worst_corner);
+  EXPECT_TRUE(entry["failures"].empty());
+}
+
+TEST(Evaluation, AWorldWithoutCornersHasNoFigures) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = quick("consistency");
+  options.fitters = {"wctls"};
+  options.worlds = {folder
+                        .write("wall.yaml",
+                               "walls:\n  - {points: [[2, -3], [2, 3]], closed: false}\n"
+                               "path:\n  - [0, 0, 0]\n")
+                        .string()};
+  const json report = report_of(options);
+  EXPECT_EQ(report["fitters"][0]["environment"], "wall");
+  EXPECT_EQ(report["fitters"][0]["corners"], 0);
+  EXPECT_TRUE(report["fitters"][0]["nees"].is_null());
+  EXPECT_TRUE(report["fitters"][0]["coverage95"].is_null());
+}
+
+TEST(Evaluation, LoopIsThatOfADirectComputation) {
+  EvaluationOptions options = quick("loop");
+  options.worlds = {"corridor", "square_room"};
+  const json report = report_of(options);
+  ASSERT_EQ(report["loop"].size(), 4U);
+  const json& entry = report["loop"][3];
+  EXPECT_EQ(entry["fitter"], "wctls");
+  EXPECT_EQ(entry["environment"], "square_room");
+  Extraction extraction(make_segmenter("iepf"), make_fitter("wctls", "propagated"),
+                        CornerFinders::make<CornerFinder>("adjacent", {}));
+  const LoopCoverage direct = judge_loop(extraction, built_in_world("square_room").value(),
+                                         SensorModel{}, 3, derived_seed(1, "loop/square_room"));
+  EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
+  EXPECT_EQ(entry["corners_per_scan"].get<double>(), direct.corners_per_scan);
+  EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
+}
+
+TEST(Evaluation, PublishedFiguresStandBesideOurs) {
+  const json report = report_of(quick("wctls_paper"));
+  bool found = false;
+  for (const json& entry : report["published"]) {
+    EXPECT_THAT(entry["paper"].get<std::string>(), HasSubstr("WCTLS"));
+    EXPECT_GT(entry["published"].get<double>(), 0.0);
+    EXPECT_GT(entry["measured"].get<double>(), 0.0);
+    if (entry["quantity"] != "ratio of areas utls / wctls, environment_a, as_published here") {
+      continue;
+    }
+    found = true;
+    EXPECT_EQ(entry["place"], "Fig. 4 a");
+    EXPECT_NEAR(entry["published"].get<double>(), 4498.5 / 626.2, 1e-12);
+    EXPECT_GT(entry["measured"].get<double>(), 4.0);
+  }
+  EXPECT_TRUE(found);
+  // Per mode: 3 medians of x and y, 3 areas and a ratio, in two environments.
+  EXPECT_EQ(report["published"].size(), 2U * 2U * (3U * 2U + 3U + 1U));
+  const json& environment = report["wctls_paper"]["environments"][1];
+  EXPECT_EQ(environment["corners"].size(), 23U);
+  ASSERT_EQ(environment["methods"].size(), 6U);
+  EXPECT_EQ(environment["methods"][0]["median_ellipse_areas"].size(), 100U);
+  EXPECT_EQ(environment["methods"][0]["sigma_x"].size(), 23U);
+}
+
+TEST(Evaluation, PcaPaperIsThatOfADirectComputation) {
+  const json report = report_of(quick("pca_paper"));
+  EXPECT_EQ(report["pca_paper"]["trials"], 200);
+  const std::vector<PcaSimulation> simulations = pca_simulations();
+  ASSERT_EQ(report["pca_paper"]["simulations"].size(), simulations.size());
+  const json& entry = report["pca_paper"]["simulations"][1];
+  const PcaComparison direct = compare_pca(simulations[1], 200, derived_seed(1, "pca_paper/1"));
+  EXPECT_EQ(entry["points"], simulations[1].points);
+  EXPECT_EQ(entry["pca"]["angle_rmse"].get<double>(), direct.pca.angle_rmse);
+  EXPECT_EQ(entry["least_squares"]["residual"].get<double>(), direct.least_squares.residual);
+  EXPECT_TRUE(entry["pca"]["seconds"].is_null());
+}
+
+TEST(Evaluation, SegmentersAreJudgedAtFourNoises) {
+  const json report = report_of(quick("segmenters"));
+  ASSERT_EQ(report["segmenters"].size(), 4U);
+  std::set<double> noises;
+  for (const json& entry : report["segmenters"]) {
+    EXPECT_EQ(entry["name"], "iepf");
+    noises.insert(entry["range_stddev"].get<double>());
+    EXPECT_GE(entry["true_positive_rate"].get<double>(), 0.0);
+    EXPECT_LE(entry["true_positive_rate_interval"][0].get<double>(),
+              entry["true_positive_rate"].get<double>());
+    EXPECT_GE(entry["false_positive_rate_interval"][1].get<double>(),
+              entry["false_positive_rate"].get<double>());
+    EXPECT_TRUE(entry["scans_per_second"].is_null());
+  }
+  EXPECT_THAT(noises, ElementsAre(0.003, 0.010, 0.020, 0.050));
+}
+
+TEST(Evaluation, TimesAreMeasuredUnlessTheyAreUnwanted) {
+  EvaluationOptions options = quick("segmenters");
+  options.timing = true;
+  options.worlds = {"square_room"};
+  EXPECT_GT(report_of(options)["segmenters"][0]["scans_per_second"].get<double>(), 0.0);
+}
+
+TEST(Evaluation, ScanFilesAreExtracted) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = quick("scans");
+  options.scans = {folder.write("room.csv", csv_scan()).string()};
+  const json report = report_of(options);
+  ASSERT_EQ(report["scan_files"].size(), 2U);
+  const json& entry = report["scan_files"][1];
+  EXPECT_EQ(entry["file"], options.scans.front());
+  EXPECT_EQ(entry["fitter"], "wctls");
+  EXPECT_EQ(entry["scans"], 1);
+  EXPECT_EQ(entry["segments_per_scan"], 4.0);
+  EXPECT_EQ(entry["corners_per_scan"], 4.0);
+  // 230 points a wall: 0.1 of standard error, and the fit is a median of four.
+  EXPECT_NEAR(entry["median_reduced_chi_square"].get<double>(), 1.0, 0.3);
+  EXPECT_GT(entry["median_sigma"].get<double>(), 0.0005);
+  EXPECT_LT(entry["median_sigma"].get<double>(), 0.01);
+  EXPECT_TRUE(entry["scans_per_second"].is_null());
+}
+
+TEST(Evaluation, IsTheSameForEveryNumberOfThreadsAndDiffersBySeed) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = quick("");
+  options.only.clear();
+  options.trials = 25;
+  options.scans = {folder.write("room.csv", csv_scan()).string()};
+  const EvaluationReport one = evaluate(prepare(options), always);
+  options.threads = 4;
+  const EvaluationReport four = evaluate(prepare(options), always);
+  EXPECT_EQ(one.json, four.json);
+  EXPECT_EQ(one.html, four.html);
+  EXPECT_EQ(one.summary, four.summary);
+  options.seed = 2;
+  const json other = report_of(options);
+  EXPECT_NE(other["fitters"], json::parse(one.json)["fitters"]);
+  EXPECT_NE(other["loop"], json::parse(one.json)["loop"]);
+}
+
+TEST(Evaluation, HtmlHasEveryPlotAndNeedsNoNetwork) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = quick("");
+  options.only.clear();
+  options.trials = 25;
+  options.scans = {folder.write("room.csv", csv_scan()).string()};
+  const std::string html = evaluate(prepare(options), always).html;
+  const std::string name_space = "xmlns=\"http://www.w3.org/2000/svg\"";
+  EXPECT_EQ(count(html, "http"), count(html, name_space));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("<link")));
+  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  EXPECT_THAT(html, Not(HasSubstr("@import")));
+  // WCTLS paper: two pictures and a box plot in each environment; consistency: two charts in each
+  // of four settings; the loop: one; segmenters: four; one scan file; PCA paper: one for each
+  // table.
+  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U + 3U);
+  EXPECT_EQ(count(html, "<svg"), count(html, "</svg>"));
+  for (const SectionKind& kind : section_kinds()) EXPECT_THAT(html, HasSubstr(kind.title));
+  for (const char* title :
+       {"Corner uncertainty in environment_b, propagated", "Median ellipse area per scan",
+        "Coverage of the 95 % ellipses, environment_a, 50 mm, 0.391 deg",
+        "RMSE over Cramer-Rao bound, environment_b, 10 mm, 0.113 deg", "segmented by iepf",
+        "True positive rate", "False positive rate", "Scatter of alpha", "Scatter of r",
+        "95 % ellipses, enlarged"}) {
+    EXPECT_THAT(html, HasSubstr(title));
+  }
+  EXPECT_THAT(html, Not(HasSubstr(">nan<")));
+}
+
+TEST(Evaluation, TellsItsProgressAndEndsWhenAsked) {
+  EvaluationOptions options = quick("loop");
+  std::vector<EvaluationProgress> told;
+  (void)evaluate(prepare(options), [&](const EvaluationProgress& progress) {
+    told.push_back(progress);
+    return true;
+  });
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back().total, 2 * world_names().size());  // two fitters in every world
+  EXPECT_EQ(told.back().done, told.back().total);
+  EXPECT_THAT(told.back().finished, ElementsAre("loop"));
+  options.trials = 1000000000;
+  options.only = {"consistency"};
+  EXPECT_THROW((void)evaluate(prepare(options), [](const auto&) { return false; }), Interrupted);
+}
+
+TEST(Evaluation, ReportsAreWrittenWholeIntoANewFolder) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "a" / "b";
+  write_report({"{}\n", "<html>", {}}, target);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(target)) {
+    names.insert(entry.path().filename());
+  }
+  EXPECT_THAT(names, ElementsAre("report.html", "report.json"));
+  std::ifstream file(target / "report.json");
+  EXPECT_EQ(json::parse(file), json::object());
+  EXPECT_THROW(write_report({}, folder.write("file", "")), std::runtime_error);
+}
+
+TEST(ProgressDisplay, DrawsABarOrALineForEachSection) {
+  const EvaluationProgress progress{5, 10, "loop", "iepf and wctls in corridor", {"consistency"}};
+  const std::string bar = progress_bar(progress, 10.0, 200);
+  EXPECT_THAT(bar, HasSubstr("[############............] 50 %, 10 s left  loop: iepf and wctls"));
+  EXPECT_EQ(progress_bar(progress, 10.0, 30).size(), 30U);
+  EXPECT_THAT(progress_bar({0, 0, "", "", {}}, 0.0, 80), HasSubstr("100 %"));
+
+  std::ostringstream lines;
+  {
+    ProgressDisplay display(lines, false, 80);
+    display.show(progress);
+    display.show(progress);
+  }
+  EXPECT_EQ(count(lines.str(), "\n"), 1U);
+  EXPECT_THAT(lines.str(), HasSubstr("consistency: done after"));
+  std::ostringstream terminal;
+  {
+    ProgressDisplay display(terminal, true, 80);
+    display.show(progress);
+  }
+  EXPECT_EQ(count(terminal.str(), "\n"), 0U);
+  EXPECT_TRUE(terminal.str().ends_with("\r\033[K"));
+}
+
+}  // namespace
+}  // namespace quoin::deploy
