@@ -10,7 +10,7 @@
 namespace quoin {
 namespace {
 
-constexpr double significance = 2.25;  // standard deviations of the sagitta
+constexpr double significance = 2.0;  // standard deviations of the sagitta
 
 struct Mean {
   double x, y;  // [m]

@@ -50,17 +50,15 @@ World environment_a() {
   World world;
   world.name = "environment_a";
   world.description =
-      "room of 4.5 x 2.5 m with niches between columns and a wardrobe: 21 walls and 18 corners in "
-      "sight";
-  world.add_polyline({{0.0, 0.0},  {1.05, 0.0},   {1.05, -0.45}, {2.5, -0.45}, {2.5, 0.0},  // niche
-                      {2.85, 0.0}, {2.85, -0.35}, {3.75, -0.35}, {3.75, 0.0},               // niche
-                      {4.5, 0.0},  {4.5, 0.4},    {5.05, 0.4},   {5.05, 1.9},   // window niche
-                      {4.5, 1.9},  {4.5, 2.5},                                  //
-                      {3.5, 2.5},  {3.5, 3.05},   {2.5, 3.05},   {2.5, 2.5},    // door niche
-                      {0.0, 2.5},                                               //
-                      {0.0, 1.85}, {-0.5, 1.85},  {-0.5, 0.55},  {0.0, 0.55}},  // wardrobe
+      "room of 4.5 x 2.5 m with niches, a column and a wardrobe: 21 walls and 18 corners in sight";
+  world.add_polyline({{0.0, 0.0}, {1.05, 0.0}, {1.05, -0.3}, {1.95, -0.3}, {1.95, 0.0},  // niche
+                      {2.7, 0.0}, {2.7, -0.5}, {3.6, -0.5},  {3.6, 0.0},                 // door
+                      {4.5, 0.0}, {4.5, 0.4},  {5.1, 0.4},   {5.1, 1.7},   {4.5, 1.7},   // window
+                      {4.5, 2.5}, {3.55, 2.5}, {3.55, 3.1},  {2.8, 3.1},   {2.8, 2.5},   // wardrobe
+                      {2.4, 2.5}, {2.4, 2.05}, {1.45, 2.05}, {1.45, 2.5},                // column
+                      {0.0, 2.5}},
                      true);
-  world.path = {{1.7, 1.0, 0.0}, {2.6, 1.1, 0.4}, {1.4, 1.3, 2.9}};
+  world.path = {{2.9, 0.95, 0.0}, {2.6, 1.1, 0.4}, {1.4, 1.3, 2.9}};
   return world;
 }
 

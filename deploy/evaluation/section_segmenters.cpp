@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -21,7 +22,9 @@ namespace {
 
 constexpr std::array range_stddevs{0.003, 0.010, 0.020, 0.050};  // [m]
 constexpr std::size_t timed_scans = 20;
-constexpr std::size_t cluttered_room_count = 20;
+// Rooms differ more than scans of one room: many rooms, and a tenth of the scans of each.
+constexpr std::size_t cluttered_room_count = 200;
+constexpr std::size_t fewer_scans = 10;
 constexpr double degrees = 180.0 / pi;
 
 struct Entry {
@@ -34,7 +37,9 @@ struct Entry {
 class SegmentersSection : public Section {
  public:
   explicit SegmentersSection(const EvaluationSetup& setup)
-      : scans_(setup.options.scans_per_world),
+      : scans_(setup.worlds.empty()
+                   ? std::max<std::size_t>(1, setup.options.scans_per_world / fewer_scans)
+                   : setup.options.scans_per_world),
         seed_(setup.options.seed),
         worlds_(setup.worlds.empty()
                     ? cluttered_rooms(cluttered_room_count,
