@@ -5,9 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/angle.hpp"
 #include "core/sensor/polar.hpp"
 
 namespace quoin {
+namespace {
+
+/// Of two lines whose normals have these directions in (-pi, pi]; in [0, pi / 2].
+double angle_between(double first, double second) {
+  double angle = std::abs(first - second);
+  if (angle > pi) angle = 2.0 * pi - angle;
+  return angle > 0.5 * pi ? pi - angle : angle;
+}
+
+}  // namespace
 
 Adjacent::Adjacent(const Parameters& parameters)
     : parameters_(parameters), sine_of_min_angle_(std::sin(parameters.min_angle)) {}
@@ -28,7 +39,7 @@ bool Adjacent::find(std::span<const LineSegment> lines, std::size_t first, std::
                                             (estimate->position - b.start).squaredNorm()));
   if (!(corner.extrapolation <= parameters_.max_extrapolation)) return false;
   corner.estimate = *estimate;
-  corner.angle = std::asin(std::min(1.0, std::abs(cross)));
+  corner.angle = angle_between(a.estimate.line.alpha, b.estimate.line.alpha);
   corner.first_line = first;
   corner.second_line = second;
   return true;

@@ -53,7 +53,7 @@ void compute_excess(const double* __restrict range, const double* __restrict cos
 /// without one are passed over by vector instructions.
 QUOIN_MULTIVERSION
 std::size_t next_positive(const double* __restrict values, std::size_t begin, std::size_t count) {
-  constexpr std::size_t block = 32;
+  constexpr std::size_t block = 64;
   while (begin + block <= count) {
     double largest = 0.0;
     for (std::size_t i = begin; i < begin + block; ++i) {
