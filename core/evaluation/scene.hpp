@@ -40,9 +40,10 @@ struct Scene {
 /// The line of a wall in the frame of `pose`.
 [[nodiscard]] Line wall_line(const Wall& wall, const Pose2& pose);
 
-/// The scene of `rays` evenly spaced rays all around from `pose`.
+/// The scene of `rays` evenly spaced rays all around from `pose`. Walls of fewer than `min_points`
+/// rays are left out, as the segmenters' default does.
 [[nodiscard]] Scene observe(const World& world, const Pose2& pose, std::size_t rays,
-                            std::size_t min_points);
+                            std::size_t min_points = 6);
 
 /// The points of a wall as measured with noise, independent for each range and bearing.
 void measure(const VisibleWall& wall, const SensorModel& noise, Random& random, Points& points);

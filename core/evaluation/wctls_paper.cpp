@@ -51,7 +51,7 @@ WctlsPaperEnvironment repeat_wctls_paper(const World& world, const Segmenter& se
   result.world = world.name;
   result.rays = rays_per_revolution(world.name);
   result.scans = scans;
-  for (const VisibleCorner& corner : observe(world, world.pose_at(0.0), result.rays, 5).corners) {
+  for (const VisibleCorner& corner : observe(world, world.pose_at(0.0), result.rays).corners) {
     result.truth.push_back(corner.position);
   }
   std::reverse(result.truth.begin(), result.truth.end());

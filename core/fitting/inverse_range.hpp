@@ -6,14 +6,13 @@
 
 namespace quoin {
 
-/// Regression of the inverse range on (cos, sin) of the bearing, like WTLS and WCTLS, but each ray
-/// weighted with the variance of its inverse range: 1 / (sigma_rho^2 z^4 + sigma_theta^2 z'^2) with
-/// z and its slope z' with the bearing taken from the line of equal weights, and 1 / rho taken to
-/// first order about z, without which the regression is biased. As good as maximum likelihood
-/// without an iteration: a second reweighting changes nothing that matters. Not defined for lines
-/// so near the sensor that bearing noise is not small against the bearings of the segment.
+/// Regression of the inverse range on (cos, sin) of the bearing, the line of WTLS and WCTLS, and
+/// from there two steps of maximum likelihood, each ray weighted with the variance that range and
+/// bearing noise give it. One step is not enough where the noise of the bearings is as large as
+/// their spacing and biases the regression; a third changes nothing that matters.
 ///
-/// The covariance is the Cramer-Rao bound in both modes: no paper prints another one.
+/// The covariance is the Cramer-Rao bound in both modes: no paper prints another one. Fails as
+/// `through_sensor` where the line is too near the sensor for the regression.
 class InverseRange {
  public:
   static constexpr const char* name = "inverse_range";

@@ -5,70 +5,15 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fitting/inverse_line.hpp"
 #include "core/fitting/moments.hpp"
-#include "core/fitting/offset_at_mean.hpp"
-#include "core/fitting/weight_variances.hpp"
-#include "core/geometry/angle.hpp"
-#include "core/sensor/multiversion.hpp"
+#include "core/fitting/normal_residuals.hpp"
 
 namespace quoin {
 namespace {
 
-/// A line by its unit normal and its offset from the mean of the points along that normal [m].
-struct State {
-  Eigen::Vector2d normal;
-  double offset;
-
-  [[nodiscard]] State moved(const Eigen::Vector2d& step) const {
-    const double c = std::cos(step.x());
-    const double s = std::sin(step.x());
-    return {{c * normal.x() - s * normal.y(), s * normal.x() + c * normal.y()}, offset + step.y()};
-  }
-};
-
-/// Derivatives of half the sum of d^2 / v with (alpha, offset).
-struct Derivatives {
-  double value = 0.0;      ///< sum of d^2 / v
-  Symmetric2 information;  ///< of Fisher: what the second derivatives are expected to be
-  double xx = 0.0;         ///< second derivatives where they differ from that
-  double xy = 0.0;
-  double descent_x = 0.0;  ///< first derivatives, turned downhill
-  double descent_y = 0.0;
-};
-
-QUOIN_MULTIVERSION
-void add_up(const double* __restrict cosine, const double* __restrict sine,
-            const double* __restrict range, std::size_t count, double nx, double ny, double r,
-            double tangential_mean, double offset, double range_variance, double bearing_variance,
-            Derivatives& out) {
-  Derivatives sums;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double c = cosine[i] * nx + sine[i] * ny;
-    const double s = sine[i] * nx - cosine[i] * ny;
-    const double d = range[i] * c - r;  // d' = t, d'' = -(d + offset)
-    const double t = range[i] * s - tangential_mean;
-    const double across = range[i] * range[i] * bearing_variance;
-    const double w = 1.0 / (range_variance * c * c + across * s * s);
-    const double v1 = 2.0 * w * s * c * (range_variance - across);            // v' / v
-    const double v2 = 2.0 * w * (s * s - c * c) * (range_variance - across);  // v'' / v
-    const double wd = w * d;
-    const double wt = w * t;
-    sums.value += wd * d;
-    sums.information.xx += wt * t;
-    sums.information.xy -= wt;
-    sums.information.yy += w;
-    sums.xx += wt * t - wd * (d + offset + 2.0 * t * v1 + d * (0.5 * v2 - v1 * v1));
-    sums.xy += wd * v1 - wt;
-    sums.descent_x += wd * (0.5 * d * v1 - t);
-    sums.descent_y += wd;
-  }
-  out = sums;
-}
-
 /// The minimum if all points had the covariance of one at their mean: the generalised eigenvector
 /// of their spread and that covariance.
-State first_guess(const Moments& m, const WeightVariances& variances) {
+AnchoredLine first_guess(const Moments& m, const WeightVariances& variances) {
   const double distance = std::hypot(m.mean_x, m.mean_y);
   const double c = distance > 0.0 ? m.mean_x / distance : 1.0;
   const double s = distance > 0.0 ? m.mean_y / distance : 0.0;
@@ -83,7 +28,7 @@ State first_guess(const Moments& m, const WeightVariances& variances) {
   const double angle = 0.5 * std::atan2(-2.0 * xy, yy - xx);
   const double u = along * std::cos(angle);
   const double v = across * std::sin(angle);
-  return {Eigen::Vector2d(c * u - s * v, s * u + c * v).normalized(), 0.0};
+  return {{m.mean_x, m.mean_y}, Eigen::Vector2d(c * u - s * v, s * u + c * v).normalized(), 0.0};
 }
 
 }  // namespace
@@ -99,22 +44,17 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
   if (!std::isfinite(m.trace())) return FitResult::failed(FitFailure::not_finite);
   if (!m.have_extent()) return FitResult::failed(FitFailure::degenerate);
   const WeightVariances variances(sensor);
-  const Eigen::Vector2d mean(m.mean_x, m.mean_y);
-  const double size = std::sqrt(mean.squaredNorm() + m.trace());
-  State state = first_guess(m, variances);
-  State accepted = state;
+  const double size = std::sqrt(m.mean_x * m.mean_x + m.mean_y * m.mean_y + m.trace());
+  AnchoredLine line = first_guess(m, variances);
+  AnchoredLine accepted = line;
   double lowest = std::numeric_limits<double>::infinity();
   Eigen::Vector2d step = Eigen::Vector2d::Zero();
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-    const double tangential = state.normal.x() * mean.y() - state.normal.y() * mean.x();
-    Derivatives sums;
-    add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-           state.normal.x(), state.normal.y(), state.normal.dot(mean) + state.offset, tangential,
-           state.offset, variances.range, variances.bearing, sums);
+    const NormalResiduals sums = normal_residuals(points, line, variances);
     // A step that leads uphill, by more than rounding, is shortened.
     if (sums.value > lowest * (1.0 + 1e-9)) {
       step *= 0.25;
-      state = accepted.moved(step);
+      line = accepted.moved(step);
       continue;
     }
     // Newton's step, or Fisher's where the sum is not convex.
@@ -127,15 +67,12 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
         solve_inverse_line({sums.xx, sums.xy, sums.information.yy}, sums.descent_x, sums.descent_y);
     const bool convex = newton && sums.xx > 0.0 && std::abs(newton->q.x()) < longest_turn;
     step = convex ? newton->q : fisher->q;
-    accepted = state;
+    accepted = line;
     lowest = sums.value;
-    state = state.moved(step);
+    line = line.moved(step);
     if (step.x() * sums.descent_x + step.y() * sums.descent_y <= small_step ||
         (std::abs(step.x()) < rounding && std::abs(step.y()) < rounding * size)) {
-      const LineEstimate estimate = normalized({{direction_of(state.normal.x(), state.normal.y()),
-                                                 state.normal.dot(mean) + state.offset},
-                                                from_offset_at_mean(fisher->inverse, tangential)});
-      FitResult result = FitResult::fitted(estimate.line, estimate.covariance);
+      FitResult result = fitted(line, sums, FitFailure::degenerate);
       if (result.ok()) result.iterations = iteration;
       return result;
     }

@@ -17,8 +17,6 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr std::size_t min_points = 5;  // of a wall that is fitted
-
 struct Entry {
   std::string fitter;
   std::string covariance;
@@ -51,16 +49,16 @@ class ConsistencySection : public Section {
     std::vector<Job> jobs;
     for (Entry& entry : entries_) {
       const World& world = worlds_[entry.world];
-      jobs.push_back(
-          {entry.fitter + " in " + world.name, [this, &entry, &world](const auto& stop) {
-             const Scene scene =
-                 observe(world, world.pose_at(0.0), rays_per_revolution(world.name), min_points);
-             const Fitter fitter = stoppable(make_fitter(entry.fitter, entry.covariance), stop);
-             // All fitters and modes are given the same measurements.
-             const std::uint64_t seed =
-                 derived_seed(seed_, "consistency/" + world.name + "/" + noise_text(entry.noise));
-             entry.result = judge_consistency(fitter, scene, entry.noise, trials_, seed);
-           }});
+      jobs.push_back({entry.fitter + " in " + world.name, [this, &entry, &world](const auto& stop) {
+                        const Scene scene =
+                            observe(world, world.pose_at(0.0), rays_per_revolution(world.name));
+                        const Fitter fitter =
+                            stoppable(make_fitter(entry.fitter, entry.covariance), stop);
+                        // All fitters and modes are given the same measurements.
+                        const std::uint64_t seed = derived_seed(
+                            seed_, "consistency/" + world.name + "/" + noise_text(entry.noise));
+                        entry.result = judge_consistency(fitter, scene, entry.noise, trials_, seed);
+                      }});
     }
     return jobs;
   }

@@ -15,7 +15,7 @@ namespace {
 
 Scene scene_of(const char* name, std::size_t rays) {
   const World world = built_in_world(name).value();
-  return observe(world, world.path.front(), rays, 6);
+  return observe(world, world.path.front(), rays);
 }
 
 TEST(Scene, ShowsTheWallsAndCornersOfTheSquareRoom) {

@@ -53,17 +53,17 @@ TEST(InverseRange, HasNotTheBiasOfTheMeanInverse) {
   EXPECT_NEAR(weighted, 0.0, 4.0 * error_of_mean);
 }
 
-TEST(InverseRange, GivesNoLineWhereItWouldBeWrong) {
+TEST(InverseRange, IsRightNearTheSensorOrSaysNothing) {
   for (const SensorModel& sensor : {SensorModel{0.01, 0.00197, 0.0}, noisy}) {
-    EXPECT_LT(near_wall("inverse_range", 0.0, sensor).found, 0.01);
-    EXPECT_LT(near_wall("inverse_range", 0.01, sensor).found, 0.01);
-    for (const double r : {0.03, 0.1, 0.3, 1.0}) {
+    EXPECT_LT(near_wall("inverse_range", 0.0, sensor).found, 0.35);
+    for (const double r : {0.01, 0.03, 0.1, 0.3, 1.0}) {
       const NearWall wall = near_wall("inverse_range", r, sensor);
-      // What is given has a bias of one standard deviation at most, which adds one.
-      if (wall.found > 0.01) {
-        EXPECT_LT(wall.nees, 3.2) << r;
+      // 2000 trials: standard deviation 0.05; second orders add as much at the larger noise.
+      if (wall.found > 0.5) {
+        EXPECT_NEAR(wall.nees, 2.0, 0.25) << r;
       }
     }
+    EXPECT_GT(near_wall("inverse_range", 0.1, sensor).found, 0.99);
     EXPECT_EQ(near_wall("inverse_range", 1.0, sensor).found, 1.0);
   }
 }

@@ -88,7 +88,7 @@ TEST(Evaluation, ConsistencyIsThatOfADirectComputation) {
   const World world = built_in_world("environment_a").value();
   const SensorModel noise = data_sheet_model();
   const Consistency direct = judge_consistency(
-      make_fitter("utls", "propagated"), observe(world, world.pose_at(0.0), 935, 5), noise, 40,
+      make_fitter("utls", "propagated"), observe(world, world.pose_at(0.0), 935), noise, 40,
       derived_seed(1, "consistency/environment_a/" + noise_text(noise)));
   EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
   EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
