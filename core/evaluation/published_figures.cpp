@@ -138,8 +138,8 @@ std::vector<PublishedArea> published_wctls_areas() {
 
 std::vector<PublishedTable> published_cwlf_tables() {
   const std::vector<std::string> methods{"cwlf", "arras_siegwart"};
-  return {table(cwlf_paper, "Table I", "A", methods, cwlf_table_1),
-          table(cwlf_paper, "Table II", "B", methods, cwlf_table_2)};
+  return {table(cwlf_paper, "Table I", "cwlf_environment_a", methods, cwlf_table_1),
+          table(cwlf_paper, "Table II", "cwlf_environment_b", methods, cwlf_table_2)};
 }
 
 }  // namespace quoin

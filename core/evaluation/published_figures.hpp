@@ -18,7 +18,7 @@ struct PublishedSigmas {
 struct PublishedTable {
   std::string paper;
   std::string place;        ///< table of the paper
-  std::string environment;  ///< the built-in world that stands for it, or the paper's own name
+  std::string environment;  ///< the built-in world that stands for it
   std::vector<PublishedSigmas> methods;
 };
 
@@ -36,7 +36,7 @@ struct PublishedArea {
 [[nodiscard]] std::vector<PublishedTable> published_wctls_tables();
 /// WCTLS paper, Fig. 4.
 [[nodiscard]] std::vector<PublishedArea> published_wctls_areas();
-/// CWLF paper, Tables I and II. Its environments have no built-in world.
+/// CWLF paper, Tables I and II.
 [[nodiscard]] std::vector<PublishedTable> published_cwlf_tables();
 
 }  // namespace quoin

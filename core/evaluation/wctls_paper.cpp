@@ -7,7 +7,6 @@
 #include "core/evaluation/extraction.hpp"
 #include "core/evaluation/order_statistics.hpp"
 #include "core/evaluation/scene.hpp"
-#include "core/geometry/angle.hpp"
 
 namespace quoin {
 namespace {
@@ -42,8 +41,6 @@ std::vector<Eigen::Vector2d> cartesian(const Points& points) {
 }
 
 }  // namespace
-
-SensorModel data_sheet_model() { return {0.05, 0.391 * pi / 180.0, 0.0}; }
 
 WctlsPaperEnvironment repeat_wctls_paper(const World& world, const Segmenter& segmenter,
                                          const CornerFinder& finder,
@@ -82,7 +79,7 @@ WctlsPaperEnvironment repeat_wctls_paper(const World& world, const Segmenter& se
 
   for (const NamedFitter& named : fitters) {
     Extraction extraction(segmenter, named.fitter, finder);
-    WctlsPaperMethod method{named.name, named.covariance, {}, {}};
+    WctlsPaperMethod method{{named.name, named.covariance, {}}, {}};
     for (std::size_t k = 0; k < scans; ++k) {
       extraction.run(view(recorded[k], settings), noise, paper);
       if (k == result.representative) method.corners = assign(extraction.corners(), result.truth);

@@ -4,34 +4,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/corners/corner_finder.hpp"
-#include "core/fitting/fit.hpp"
+#include "core/evaluation/paper_corners.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "core/simulation/world.hpp"
 
 namespace quoin {
 
-/// The sensor model of the WCTLS paper's section 4: the data sheet's accuracy and resolution of the
-/// RPLIDAR S1 taken for standard deviations (50 mm, 0.391 deg).
-[[nodiscard]] SensorModel data_sheet_model();
-
-/// A fitter in one covariance mode, under the name it has in the results.
-struct NamedFitter {
-  std::string name;
-  CovarianceMode covariance = CovarianceMode::propagated;
-  Fitter fitter;
-};
-
-struct WctlsPaperMethod {
-  std::string fitter;
-  CovarianceMode covariance = CovarianceMode::propagated;
-  /// What the representative scan gave for each true corner; nothing where it was not found.
-  std::vector<std::optional<CornerEstimate>> corners;
+/// The corners of the representative scan and what all scans have in common.
+struct WctlsPaperMethod : PaperCorners {
   std::vector<double> median_areas;  ///< [m^2] of each scan's one-sigma ellipses (Fig. 4)
 };
 

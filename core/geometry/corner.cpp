@@ -9,6 +9,57 @@
 
 namespace quoin {
 
+namespace {
+
+/// Sine of the angle from one unit vector to the other.
+double cross(const Eigen::Vector2d& first, const Eigen::Vector2d& second) {
+  return first.x() * second.y() - first.y() * second.x();
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> intersection(const Line& first, const Eigen::Vector2d& first_normal,
+                                            const Line& second,
+                                            const Eigen::Vector2d& second_normal) {
+  constexpr double parallel = 1e-12;  // sine of the angle; below it the position is rounding only
+  const double sine = cross(first_normal, second_normal);
+  if (!(std::abs(sine) > parallel)) return std::nullopt;
+
+  // WCTLS eq. (24), (25) with (a, b, c) = (cos alpha, sin alpha, -r).
+  const Eigen::Vector2d position(
+      (first.r * second_normal.y() - second.r * first_normal.y()) / sine,
+      (second.r * first_normal.x() - first.r * second_normal.x()) / sine);
+  if (!position.allFinite()) return std::nullopt;
+  return position;
+}
+
+Eigen::Matrix2d intersection_covariance(const Eigen::Vector2d& position, const LineEstimate& first,
+                                        const Eigen::Vector2d& first_normal,
+                                        const LineEstimate& second,
+                                        const Eigen::Vector2d& second_normal) {
+  const double c1 = first_normal.x();
+  const double s1 = first_normal.y();
+  const double c2 = second_normal.x();
+  const double s2 = second_normal.y();
+  const double sine = cross(first_normal, second_normal);
+
+  // Only the normal offset of each line at the corner moves the corner: dr - t dalpha.
+  const auto offset_variance = [&position](const LineEstimate& line, double c, double s) {
+    const double t = position.y() * c - position.x() * s;
+    return line.covariance(1, 1) - 2.0 * t * line.covariance(0, 1) + t * t * line.covariance(0, 0);
+  };
+  const double v1 = offset_variance(first, c1, s1);
+  const double v2 = offset_variance(second, c2, s2);
+  const double scale = 1.0 / (sine * sine);
+
+  Eigen::Matrix2d covariance;
+  covariance(0, 0) = (s2 * s2 * v1 + s1 * s1 * v2) * scale;
+  covariance(0, 1) = -(s2 * c2 * v1 + s1 * c1 * v2) * scale;
+  covariance(1, 0) = covariance(0, 1);
+  covariance(1, 1) = (c2 * c2 * v1 + c1 * c1 * v2) * scale;
+  return covariance;
+}
+
 std::optional<CornerEstimate> intersect(const LineEstimate& first, const LineEstimate& second) {
   return intersect(first, first.line.normal(), second, second.line.normal());
 }
@@ -17,34 +68,11 @@ std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                         const Eigen::Vector2d& first_normal,
                                         const LineEstimate& second,
                                         const Eigen::Vector2d& second_normal) {
-  constexpr double parallel = 1e-12;  // sine of the angle; below it the position is rounding only
-  const double c1 = first_normal.x();
-  const double s1 = first_normal.y();
-  const double c2 = second_normal.x();
-  const double s2 = second_normal.y();
-  const double determinant = c1 * s2 - s1 * c2;
-  if (!(std::abs(determinant) > parallel)) return std::nullopt;
-
-  // WCTLS eq. (24), (25) with (a, b, c) = (cos alpha, sin alpha, -r).
-  const double x = (first.line.r * s2 - second.line.r * s1) / determinant;
-  const double y = (second.line.r * c1 - first.line.r * c2) / determinant;
-
-  // Only the normal offset of each line at the corner moves the corner: dr - t dalpha.
-  const auto offset_variance = [x, y](const LineEstimate& line, double c, double s) {
-    const double t = y * c - x * s;
-    return line.covariance(1, 1) - 2.0 * t * line.covariance(0, 1) + t * t * line.covariance(0, 0);
-  };
-  const double v1 = offset_variance(first, c1, s1);
-  const double v2 = offset_variance(second, c2, s2);
-  const double scale = 1.0 / (determinant * determinant);
-
-  CornerEstimate corner;
-  corner.position = {x, y};
-  corner.covariance(0, 0) = (s2 * s2 * v1 + s1 * s1 * v2) * scale;
-  corner.covariance(0, 1) = -(s2 * c2 * v1 + s1 * c1 * v2) * scale;
-  corner.covariance(1, 0) = corner.covariance(0, 1);
-  corner.covariance(1, 1) = (c2 * c2 * v1 + c1 * c1 * v2) * scale;
-  if (!corner.position.allFinite() || !corner.covariance.allFinite()) return std::nullopt;
+  const auto position = intersection(first.line, first_normal, second.line, second_normal);
+  if (!position) return std::nullopt;
+  const CornerEstimate corner{
+      *position, intersection_covariance(*position, first, first_normal, second, second_normal)};
+  if (!corner.covariance.allFinite()) return std::nullopt;
   return corner;
 }
 

@@ -16,12 +16,27 @@ struct CornerEstimate {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
+/// Where two lines meet, from their unit normals (cos alpha, sin alpha) too. Nothing when they are
+/// parallel to rounding.
+[[nodiscard]] std::optional<Eigen::Vector2d> intersection(const Line& first,
+                                                          const Eigen::Vector2d& first_normal,
+                                                          const Line& second,
+                                                          const Eigen::Vector2d& second_normal);
+
+/// Covariance of the `position` where two lines with independent errors meet, by first-order
+/// propagation.
+[[nodiscard]] Eigen::Matrix2d intersection_covariance(const Eigen::Vector2d& position,
+                                                      const LineEstimate& first,
+                                                      const Eigen::Vector2d& first_normal,
+                                                      const LineEstimate& second,
+                                                      const Eigen::Vector2d& second_normal);
+
 /// Intersection of two lines with independent errors (CWLF eq. 36, 37; WCTLS eq. 24, 25) and its
 /// covariance by first-order propagation. Nothing when the lines are parallel to rounding.
 [[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                                       const LineEstimate& second);
 
-/// The same for who already has the unit normals (cos alpha, sin alpha) of the lines.
+/// The same for who already has the unit normals of the lines.
 [[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                                       const Eigen::Vector2d& first_normal,
                                                       const LineEstimate& second,

@@ -7,6 +7,7 @@ namespace quoin::deploy {
 const std::vector<SectionKind>& section_kinds() {
   static const std::vector<SectionKind> kinds{
       {"wctls_paper", "The WCTLS paper's experiment", make_wctls_paper_section},
+      {"cwlf_paper", "The CWLF paper's experiment", make_cwlf_paper_section},
       {"pca_paper", "The PCA paper's simulations", make_pca_paper_section},
       {"consistency", "Consistency of fitters", make_consistency_section},
       {"loop", "Coverage with segmentation in the loop", make_loop_section},

@@ -47,6 +47,7 @@ inline constexpr const char* scan_files_section = "scans";
 [[nodiscard]] std::vector<std::string> section_names();
 
 [[nodiscard]] std::unique_ptr<Section> make_wctls_paper_section(const EvaluationSetup& setup);
+[[nodiscard]] std::unique_ptr<Section> make_cwlf_paper_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_pca_paper_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_consistency_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_loop_section(const EvaluationSetup& setup);

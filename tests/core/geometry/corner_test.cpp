@@ -41,6 +41,20 @@ TEST(Intersect, KnowsWhenThereIsNone) {
   EXPECT_NEAR(corner->position.y(), 1.0, 1e-15);
 }
 
+TEST(Intersection, IsThePositionAndTheCovarianceOfIntersect) {
+  const LineEstimate a{{0.3, 2.0}, Eigen::Matrix2d{{1e-4, 3e-5}, {3e-5, 4e-5}}};
+  const LineEstimate b{{1.9, 1.5}, Eigen::Matrix2d{{2e-4, -5e-5}, {-5e-5, 3e-5}}};
+  const Eigen::Vector2d m = a.line.normal();
+  const Eigen::Vector2d n = b.line.normal();
+  const auto position = intersection(a.line, m, b.line, n);
+  ASSERT_TRUE(position);
+  EXPECT_NEAR(m.dot(*position), 2.0, 1e-12);
+  EXPECT_NEAR(n.dot(*position), 1.5, 1e-12);
+  EXPECT_EQ(*position, intersect(a, b)->position);
+  EXPECT_EQ(intersection_covariance(*position, a, m, b, n), intersect(a, b)->covariance);
+  EXPECT_FALSE(intersection(a.line, m, b.line, -m));
+}
+
 TEST(RangeBias, ActsAlongTheRay) {
   CornerEstimate corner{{3.0, 4.0}, Eigen::Matrix2d::Identity() * 1e-4};
   const Eigen::Matrix2d c = with_range_bias(corner, 0.05).covariance;

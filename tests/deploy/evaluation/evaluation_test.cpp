@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/corners/corner_finders.hpp"
+#include "core/evaluation/cwlf_paper.hpp"
 #include "core/evaluation/loop_coverage.hpp"
 #include "core/evaluation/pca_paper.hpp"
 #include "core/evaluation/published_figures.hpp"
@@ -156,6 +157,57 @@ TEST(Evaluation, PublishedFiguresStandBesideOurs) {
   EXPECT_EQ(environment["methods"][0]["sigma_x"].size(), 23U);
 }
 
+TEST(Evaluation, CwlfPaperIsThatOfADirectComputation) {
+  const json report = report_of(quick("cwlf_paper"));
+  const json& environments = report["cwlf_paper"]["environments"];
+  ASSERT_EQ(environments.size(), 2U);
+  EXPECT_EQ(environments[0]["environment"], "cwlf_environment_a");
+  EXPECT_EQ(environments[0]["walls"], 36);
+  EXPECT_EQ(environments[0]["corners"].size(), 23U);
+  EXPECT_EQ(environments[1]["walls"], 18);
+  ASSERT_EQ(environments[1]["methods"].size(), 4U);
+  const SensorModel noise = rplidar_noise(0.010);
+  const CwlfPaperEnvironment direct = measure_cwlf_paper(
+      built_in_world("cwlf_environment_b").value(),
+      {{"cwlf", CovarianceMode::as_published, make_fitter("cwlf", "as_published")}}, noise,
+      derived_seed(1, "cwlf_paper/cwlf_environment_b"));
+  const json& method = environments[1]["methods"][0];
+  EXPECT_EQ(method["fitter"], "cwlf");
+  EXPECT_EQ(method["covariance"], "as_published");
+  ASSERT_EQ(method["sigma_x"].size(), 15U);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 15; ++k) {
+    const Eigen::Matrix2d& covariance = direct.methods[0].corners[k]->covariance;
+    EXPECT_EQ(method["sigma_y"][k].get<double>(), std::sqrt(covariance(1, 1)));
+    sum += 1e3 * std::sqrt(covariance(0, 0));
+  }
+
+  CwlfPaperCorner expected = cwlf_paper_corners()[2];
+  const json& corner = report["cwlf_paper"]["corners"][2];
+  EXPECT_EQ(report["cwlf_paper"]["corners"].size(), cwlf_paper_corners().size());
+  EXPECT_EQ(corner["method"], "arras_siegwart_literal");
+  EXPECT_EQ(corner["points"], 10);
+  compute_corner(expected, noise, derived_seed(1, "cwlf_paper/130/10"));
+  EXPECT_EQ(corner["sigma_x"].get<double>(), std::sqrt(expected.corner->covariance(0, 0)));
+  EXPECT_TRUE(corner["seconds"].is_null());
+
+  // Two methods, x and y, two modes, two environments; two figures, x and y, two modes; shares.
+  ASSERT_EQ(report["published"].size(), 2U * 2U * 2U * 2U + 2U * 2U * 2U + 3U);
+  bool found = false;
+  for (const json& entry : report["published"]) {
+    const std::string quantity = entry["quantity"];
+    EXPECT_EQ(entry["measured"].is_null(), quantity.starts_with("share of time")) << quantity;
+    if (quantity != "mean sigma_x over the corners, cwlf, cwlf_environment_b, as_published here") {
+      continue;
+    }
+    found = true;
+    EXPECT_EQ(entry["place"], "Table II");
+    EXPECT_NEAR(entry["published"].get<double>(), 25.86, 0.01);
+    EXPECT_NEAR(entry["measured"].get<double>(), sum / 15.0, 1e-9);
+  }
+  EXPECT_TRUE(found);
+}
+
 TEST(Evaluation, PcaPaperIsThatOfADirectComputation) {
   const json report = report_of(quick("pca_paper"));
   EXPECT_EQ(report["pca_paper"]["trials"], 200);
@@ -191,6 +243,16 @@ TEST(Evaluation, TimesAreMeasuredUnlessTheyAreUnwanted) {
   options.timing = true;
   options.worlds = {"square_room"};
   EXPECT_GT(report_of(options)["segmenters"][0]["scans_per_second"].get<double>(), 0.0);
+  options.only = {"cwlf_paper"};
+  const EvaluationReport cwlf = evaluate(prepare(options), always);
+  const json report = json::parse(cwlf.json);
+  for (const json& corner : report["cwlf_paper"]["corners"]) {
+    for (const char* step : {"lines", "line_covariances", "position", "covariance", "all"}) {
+      EXPECT_GT(corner["seconds"][step].get<double>(), 0.0);
+    }
+  }
+  // Two environments; times and ratios; steps of two corners.
+  EXPECT_EQ(count(cwlf.html, "<svg"), 2U + 2U + 2U);
 }
 
 TEST(Evaluation, ScanFilesAreExtracted) {
@@ -245,8 +307,8 @@ TEST(Evaluation, HtmlHasEveryPlotAndNeedsNoNetwork) {
   EXPECT_THAT(html, Not(HasSubstr("@import")));
   // WCTLS paper: two pictures and a box plot in each environment; consistency: two charts in each
   // of four settings; the loop: one; segmenters: four; one scan file; PCA paper: one for each
-  // table.
-  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U + 3U);
+  // table; CWLF paper: two environments.
+  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U + 3U + 2U);
   EXPECT_EQ(count(html, "<svg"), count(html, "</svg>"));
   for (const SectionKind& kind : section_kinds()) EXPECT_THAT(html, HasSubstr(kind.title));
   for (const char* title :
