@@ -15,7 +15,6 @@ namespace quoin {
 namespace {
 
 constexpr std::size_t rays = 1000;            // section V: about as many in a sweep
-constexpr std::size_t min_points = 6;         // of a wall
 constexpr std::size_t literal_points = 1000;  // beyond, the double sums take too long
 constexpr double corner_distance = 3.0;       // [m]
 constexpr double wall_length = 1.5;           // [m]
@@ -150,7 +149,7 @@ void with_steps(const CwlfPaperCorner& corner, const SensorModel& noise, std::ui
 
 CwlfPaperEnvironment measure_cwlf_paper(const World& world, const std::vector<NamedFitter>& fitters,
                                         const SensorModel& noise, std::uint64_t seed) {
-  Scene scene = observe(world, world.pose_at(0.0), rays, min_points);
+  Scene scene = observe(world, world.pose_at(0.0), rays);
   std::reverse(scene.corners.begin(), scene.corners.end());
   CwlfPaperEnvironment result;
   result.world = world.name;

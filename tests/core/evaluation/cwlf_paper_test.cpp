@@ -47,7 +47,7 @@ TEST(CwlfPaper, EnvironmentsHaveTheWallsAndCornersThatThePaperCounts) {
 TEST(CwlfPaper, CornersAreThoseOfADirectComputation) {
   const World world = built_in_world("cwlf_environment_b").value();
   const CwlfPaperEnvironment b = measured("cwlf_environment_b", 8);
-  const Scene scene = observe(world, world.pose_at(0.0), 1000, 6);
+  const Scene scene = observe(world, world.pose_at(0.0), 1000);
   Random random(8);
   std::vector<Points> walls(scene.walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
