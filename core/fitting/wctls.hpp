@@ -19,6 +19,10 @@ class Wctls {
   static constexpr const char* description =
       "weighted conformal total least squares: the line by its point Q in the inverted plane";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
+  static constexpr const char* choose =
+      "For nearly everything: no iteration, hardly any bias, a covariance that holds, and an error "
+      "a few percent above the Cramer-Rao bound at 10 mm of noise. Not for lines through the "
+      "sensor, which it cannot express.";
 
   using Parameters = CovarianceParameters;
 

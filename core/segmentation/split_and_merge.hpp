@@ -18,6 +18,10 @@ class SplitAndMerge {
   static constexpr const char* description =
       "split and merge: splits at the point farthest from the line fitted to the piece";
   static constexpr const char* source = "Pavlidis and Horowitz 1974";
+  static constexpr const char* choose =
+      "In place of iepf at 20 mm and more, when time and fewer false segments matter more than "
+      "finding every wall: it is faster there, but misses more at 50 mm. At lower noise there is "
+      "no difference that matters.";
 
   struct Parameters : SegmentationParameters {
     static constexpr auto fields() { return common_fields<Parameters>(); }

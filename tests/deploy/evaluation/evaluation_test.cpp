@@ -193,6 +193,30 @@ TEST(Evaluation, TimesAreMeasuredUnlessTheyAreUnwanted) {
   EXPECT_GT(report_of(options)["segmenters"][0]["scans_per_second"].get<double>(), 0.0);
 }
 
+TEST(Evaluation, TimesOfFitsStandBesideAPlainCovariance) {
+  EvaluationOptions options = quick("consistency");
+  options.trials = 2;
+  for (const bool timing : {false, true}) {
+    options.timing = timing;
+    const json times = report_of(options)["fit_times"];
+    ASSERT_EQ(times.size(), 3U);
+    EXPECT_EQ(times[0]["name"], "utls");
+    EXPECT_EQ(times[1]["name"], "wctls");
+    EXPECT_EQ(times[2]["name"], "plain_covariance");
+    for (const json& time : times) {
+      EXPECT_EQ(time["points"], 100);
+      EXPECT_EQ(time["seconds"].is_null(), !timing);
+      EXPECT_EQ(time["over_covariance"].is_null(), !timing);
+      if (!timing) continue;
+      EXPECT_GT(time["seconds"].get<double>(), 0.0);
+      EXPECT_DOUBLE_EQ(time["over_covariance"].get<double>(),
+                       time["seconds"].get<double>() / times[2]["seconds"].get<double>());
+    }
+    EXPECT_EQ(evaluate(prepare(options), always).html.find("Time of a fit") != std::string::npos,
+              timing);
+  }
+}
+
 TEST(Evaluation, ScanFilesAreExtracted) {
   const TemporaryFolder folder;
   EvaluationOptions options = quick("scans");
