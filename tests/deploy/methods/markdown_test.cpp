@@ -44,7 +44,7 @@ TEST(Markdown, TheLastColumnOfTextIsNotPadded) {
 }
 
 TEST(Markdown, BarsDoNotEndACell) {
-  EXPECT_EQ(markdown_table({{"x|y"}}, 1), "| x\\|y |\n|-----|\n\n");
+  EXPECT_EQ(markdown_table({{"x|y"}}, 1), "| x\\|y |\n|------|\n\n");
 }
 
 }  // namespace
