@@ -23,8 +23,8 @@ class InverseRange {
       "weighted least squares on the noise model of ranges and bearings";
   static constexpr const char* choose =
       "For the optimal weights without an iteration, at up to about 10 mm of noise. Not at 50 mm: "
-      "there it refuses short and near walls (through_sensor), and what it still fits is no better "
-      "than with wctls.";
+      "there it refuses short and near walls (through_sensor), and what it still fits is hardly "
+      "better than with wctls.";
 
   using Parameters = CovarianceParameters;
 

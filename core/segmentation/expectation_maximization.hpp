@@ -25,7 +25,7 @@ class ExpectationMaximization {
   static constexpr const char* source = "Liu et al. 2001; Nguyen et al. 2007";
   static constexpr const char* choose =
       "At 50 mm when finding the walls is worth any time: there it finds most. It is the slowest, "
-      "and makes no fewer errors than iepf.";
+      "and makes hardly fewer errors than iepf.";
 
   struct Parameters : SegmentationParameters {
     int window = 8;
