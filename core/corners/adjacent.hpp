@@ -18,6 +18,10 @@ class Adjacent {
   static constexpr const char* name = "adjacent";
   static constexpr const char* description = "intersections of neighbouring lines";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 24-25";
+  static constexpr const char* choose =
+      "For corners whose two walls are seen up to the corner or nearly so; it is the only corner "
+      "finder. Raise max_gap and max_extrapolation when something stands in front of the corner: "
+      "each is a guess that the walls go on.";
 
   struct Parameters {
     double min_angle = 0.3490658503988659;  // [rad] 20 deg

@@ -18,6 +18,10 @@ class Cwlf {
   static constexpr const char* description =
       "conditional weighted linear fitting: regression along the axis of larger spread";
   static constexpr const char* source = "Prieto-Fernandez et al. 2024, eq. 20-35";
+  static constexpr const char* choose =
+      "To repeat the paper. Propagated it is as good as the others at 10 mm of noise, but biased "
+      "at 50 mm in a small room, so that too few corners lie in their ellipses; as_published the "
+      "ellipses are too small at any noise.";
 
   using Parameters = CovarianceParameters;
 

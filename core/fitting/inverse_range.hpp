@@ -20,6 +20,10 @@ class InverseRange {
       "inverse range regressed with the variance of each ray; reaches the Cramer-Rao bound";
   static constexpr const char* source =
       "weighted least squares on the noise model of ranges and bearings";
+  static constexpr const char* choose =
+      "For the optimal weights without an iteration, at up to about 10 mm of noise. Not at 50 mm: "
+      "there it refuses short and near walls (through_sensor), and what it still fits is hardly "
+      "better than with wctls.";
 
   using Parameters = CovarianceParameters;
 

@@ -18,6 +18,9 @@ class LeastSquares {
   static constexpr const char* description =
       "ordinary regression along the axis of larger spread, equal weights";
   static constexpr const char* source = "textbook; choice of the axis by Vandorpe et al. 1996";
+  static constexpr const char* choose =
+      "As the baseline to compare with. Propagated it does well at 10 mm of noise; at 50 mm too "
+      "few corners lie in their ellipses, in a small room above all, where it is biased.";
 
   using Parameters = CovarianceParameters;
 

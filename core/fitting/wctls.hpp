@@ -19,6 +19,11 @@ class Wctls {
   static constexpr const char* description =
       "weighted conformal total least squares: the line by its point Q in the inverted plane";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
+  static constexpr const char* choose =
+      "For nearly everything: no iteration, a covariance that holds, and an error a few percent "
+      "above the Cramer-Rao bound at 10 mm of noise. At 50 mm its error and the corners outside "
+      "their ellipses become somewhat more, and maximum_likelihood is better; it cannot express "
+      "lines through the sensor.";
 
   using Parameters = CovarianceParameters;
 

@@ -18,6 +18,10 @@ class Wtls {
   static constexpr const char* name = "wtls";
   static constexpr const char* description = "algebraic line fit with weights 1 / range^2";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 8-15";
+  static constexpr const char* choose =
+      "To compare with wctls, nothing else: it gives the same line and the same propagated "
+      "covariance. Its as_published ellipses are far too large and serve to repeat the paper's "
+      "tables only.";
 
   using Parameters = CovarianceParameters;
 

@@ -16,18 +16,19 @@ struct MethodInfo {
   std::string name;
   std::string description;
   std::string source;  ///< publication it comes from
+  std::string choose;  ///< when to choose it, and when not
   std::vector<ParameterInfo> parameters;
 };
 
 /// The methods of one concept (segmenters, fitters, corner finders), the first being the default. A
-/// method is a class with `name`, `description`, `source`, a nested `Parameters` struct and a
-/// constructor from it; adding one is one more name in the list.
+/// method is a class with `name`, `description`, `source`, `choose`, a nested `Parameters` struct
+/// and a constructor from it; adding one is one more name in the list.
 ///
 /// `descriptions` uses the headers only, so that who just describes methods links none of them.
 template <class... Methods>
 struct MethodList {
   [[nodiscard]] static std::vector<MethodInfo> descriptions() {
-    return {MethodInfo{Methods::name, Methods::description, Methods::source,
+    return {MethodInfo{Methods::name, Methods::description, Methods::source, Methods::choose,
                        describe_parameters<typename Methods::Parameters>()}...};
   }
 

@@ -39,6 +39,8 @@ struct ParameterInfo {
   std::vector<std::string> choices;  ///< for ParameterType::choice
   bool required = false;             ///< has no default that could be used
   std::string description;
+
+  friend bool operator==(const ParameterInfo&, const ParameterInfo&) = default;
 };
 
 /// A setting that cannot be used: which parameter, what is wrong, what to do.

@@ -23,6 +23,9 @@ class ExpectationMaximization {
   static constexpr const char* description =
       "expectation maximisation: fits a mixture of lines and a background to each cluster";
   static constexpr const char* source = "Liu et al. 2001; Nguyen et al. 2007";
+  static constexpr const char* choose =
+      "At 50 mm when finding the walls is worth any time: there it finds most. It is the slowest, "
+      "and makes hardly fewer errors than iepf.";
 
   struct Parameters : SegmentationParameters {
     int window = 8;

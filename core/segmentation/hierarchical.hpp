@@ -28,6 +28,10 @@ class Hierarchical {
   static constexpr const char* description =
       "hierarchical clusters: splits at gaps, then where the slopes of x and y change";
   static constexpr const char* source = "Opromolla et al. 2018 (derivatives reconstructed)";
+  static constexpr const char* choose =
+      "At up to 10 mm when false segments must be as few as possible and a missed wall does not "
+      "matter. Not from 20 mm on, where it misses walls, and at 50 mm nearly all: its limits do "
+      "not grow with the noise.";
 
   struct Parameters : SegmentationParameters {
     double cluster_distance = 0.15;  // [m]

@@ -23,6 +23,9 @@ class Hough {
   static constexpr const char* description =
       "Hough transform: takes the longest run near the line that most points vote for";
   static constexpr const char* source = "Duda and Hart 1972; Nguyen et al. 2007";
+  static constexpr const char* choose =
+      "At up to 20 mm when false segments must be few: nearly all walls are found with few errors. "
+      "It is among the slowest, and at 50 mm it misses more walls than iepf.";
 
   struct Parameters : SegmentationParameters {
     double angle_resolution = 0.03490658503988659;  // [rad] 2 deg

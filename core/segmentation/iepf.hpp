@@ -17,6 +17,10 @@ class Iepf {
   static constexpr const char* description =
       "iterative end point fit: splits at the point farthest from the chord";
   static constexpr const char* source = "Duda and Hart 1973; Borges and Aldon 2004";
+  static constexpr const char* choose =
+      "For nearly everything: the fastest at low noise, and among those that find most at 50 mm. "
+      "From 20 mm on some of what it finds is none; successive_edge_following and line_tracking "
+      "make fewer such errors.";
 
   struct Parameters : SegmentationParameters {
     static constexpr auto fields() { return common_fields<Parameters>(); }

@@ -23,6 +23,9 @@ class LineRegression {
   static constexpr const char* description =
       "line regression: splits where lines fitted in a sliding window change";
   static constexpr const char* source = "Arras and Siegwart 1998; Nguyen et al. 2007";
+  static constexpr const char* choose =
+      "To compare with the literature, or at a few millimetres of noise, where it makes fewer "
+      "errors than iepf. From 20 mm on it does not, and it takes many times as long.";
 
   struct Parameters : SegmentationParameters {
     int window = 12;

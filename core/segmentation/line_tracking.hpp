@@ -19,6 +19,9 @@ class LineTracking {
   static constexpr const char* description =
       "line tracking (incremental): follows a line point by point until one is off it";
   static constexpr const char* source = "Siadat et al. 1997; Nguyen et al. 2007";
+  static constexpr const char* choose =
+      "At up to 20 mm when false segments are worse than a few times the time of iepf; much like "
+      "successive_edge_following, and a little faster. At 50 mm it misses more walls than iepf.";
 
   struct Parameters : SegmentationParameters {
     int look_ahead = 2;

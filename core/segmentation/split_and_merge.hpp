@@ -18,6 +18,9 @@ class SplitAndMerge {
   static constexpr const char* description =
       "split and merge: splits at the point farthest from the line fitted to the piece";
   static constexpr const char* source = "Pavlidis and Horowitz 1974";
+  static constexpr const char* choose =
+      "Seldom: at up to 20 mm it finds what iepf finds and takes longer at low noise. At 50 mm it "
+      "makes somewhat fewer errors, but misses more walls.";
 
   struct Parameters : SegmentationParameters {
     static constexpr auto fields() { return common_fields<Parameters>(); }

@@ -24,6 +24,9 @@ class SuccessiveEdgeFollowing {
   static constexpr const char* description =
       "successive edge following: starts a segment where the range leaves what those before say";
   static constexpr const char* source = "Siadat et al. 1997";
+  static constexpr const char* choose =
+      "At up to 20 mm when false segments are worse than a few times the time of iepf: it finds as "
+      "many walls and at 20 mm makes clearly fewer errors. At 50 mm it misses more.";
 
   struct Parameters : SegmentationParameters {
     int slope_points = 40;

@@ -144,6 +144,7 @@ EvaluationReport evaluate(const EvaluationSetup& setup,
                               {"trials", setup.options.trials},
                               {"options", options_json(setup)},
                               {"fitters", nlohmann::ordered_json::array()},
+                              {"fit_times", nlohmann::ordered_json::array()},
                               {"segmenters", nlohmann::ordered_json::array()},
                               {"published", nlohmann::ordered_json::array()}};
   for (const Part& part : parts) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "core/evaluation/consistency.hpp"
 #include "core/evaluation/extraction.hpp"
+#include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/wctls_paper.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
@@ -16,6 +18,8 @@
 namespace quoin::deploy {
 
 namespace {
+
+constexpr std::size_t timed_points = 100;  // of a wall whose fit is timed
 
 struct Entry {
   std::string fitter;
@@ -27,13 +31,20 @@ struct Entry {
   [[nodiscard]] bool has_corners() const { return !result.corners.empty(); }
 };
 
+struct FitTime {
+  std::string name;
+  std::optional<double> seconds;
+};
+
 class ConsistencySection : public Section {
  public:
   explicit ConsistencySection(const EvaluationSetup& setup)
       : trials_(setup.options.trials),
         seed_(setup.options.seed),
         worlds_(worlds_or(setup, {"environment_a", "environment_b"})),
-        noises_{data_sheet_model(), rplidar_noise(0.010)} {
+        noises_{data_sheet_model(), rplidar_noise(0.010)},
+        covariance_time_{"plain_covariance", std::nullopt} {
+    for (const std::string& fitter : setup.fitters) fit_times_.push_back({fitter, std::nullopt});
     for (const SensorModel& noise : noises_) {
       for (std::size_t world = 0; world < worlds_.size(); ++world) {
         for (const std::string& fitter : setup.fitters) {
@@ -63,6 +74,21 @@ class ConsistencySection : public Section {
     return jobs;
   }
 
+  std::vector<Job> timing_jobs() override {
+    std::vector<Job> jobs{{"speed of a plain covariance", [this](const auto&) {
+                             covariance_time_.seconds =
+                                 seconds_per_plain_covariance(timing_walls(timed_points));
+                           }}};
+    for (FitTime& time : fit_times_) {
+      jobs.push_back({"speed of " + time.name, [&time](const auto&) {
+                        // Not stoppable, which costs time itself; it takes milliseconds.
+                        time.seconds =
+                            seconds_per_fit(make_fitter(time.name, ""), timing_walls(timed_points));
+                      }});
+    }
+    return jobs;
+  }
+
   void write_json(nlohmann::ordered_json& report) const override {
     auto& array = report["fitters"] = nlohmann::ordered_json::array();
     for (const Entry& entry : entries_) {
@@ -86,6 +112,9 @@ class ConsistencySection : public Section {
       object["failures"] = failures_json(entry.result.failures);
       array.push_back(std::move(object));
     }
+    auto& times = report["fit_times"] = nlohmann::ordered_json::array();
+    for (const FitTime& time : fit_times_) times.push_back(time_json(time));
+    times.push_back(time_json(covariance_time_));
   }
 
   void write_html(HtmlPage& page) const override {
@@ -103,6 +132,7 @@ class ConsistencySection : public Section {
         write_group(page, noise, world);
       }
     }
+    if (covariance_time_.seconds) write_times(page);
   }
 
   SummaryTable summary() const override {
@@ -127,6 +157,38 @@ class ConsistencySection : public Section {
   }
 
  private:
+  /// Nothing before both have been measured.
+  [[nodiscard]] std::optional<double> over_covariance(const FitTime& time) const {
+    if (!time.seconds || !covariance_time_.seconds) return std::nullopt;
+    return *time.seconds / *covariance_time_.seconds;
+  }
+
+  [[nodiscard]] nlohmann::ordered_json time_json(const FitTime& time) const {
+    nlohmann::ordered_json object{{"name", time.name},
+                                  {"points", timed_points},
+                                  {"seconds", nullptr},
+                                  {"over_covariance", nullptr}};
+    if (time.seconds) object["seconds"] = *time.seconds;
+    if (const auto ratio = over_covariance(time)) object["over_covariance"] = *ratio;
+    return object;
+  }
+
+  void write_times(HtmlPage& page) const {
+    page.heading(3, "Time of a fit");
+    page.paragraph("One line with its covariance from " + std::to_string(timed_points) +
+                   " points, on one processor; beside it the plain covariance of x and y of the "
+                   "same points with Eigen, which is the least that any fit has to do.");
+    HtmlTable table{{}, {"fitter", "time [us]", "over plain covariance"}, {}, 1, true};
+    const auto add = [&](const FitTime& time) {
+      const std::optional<double> ratio = over_covariance(time);
+      table.rows.push_back({time.name, time.seconds ? fixed(1e6 * *time.seconds, 3) : "-",
+                            ratio ? fixed(*ratio, 1) : "-"});
+    };
+    for (const FitTime& time : fit_times_) add(time);
+    add(covariance_time_);
+    page.table(table);
+  }
+
   void write_group(HtmlPage& page, const SensorModel& noise, std::size_t world) const {
     const std::string where = worlds_[world].name + ", " + noise_text(noise);
     IntervalChart coverage;
@@ -183,6 +245,8 @@ class ConsistencySection : public Section {
   std::vector<World> worlds_;
   std::vector<SensorModel> noises_;
   std::vector<Entry> entries_;
+  std::vector<FitTime> fit_times_;
+  FitTime covariance_time_;  // of the plain covariance
 };
 
 }  // namespace

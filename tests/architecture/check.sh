@@ -32,6 +32,7 @@ deny deploy 'core/(evaluation/(consistency|extraction|loop_coverage|segmentation
 deny deploy/evaluation 'deploy/(deployment|quoin|supervision)/|idl/|services/' \
   "the evaluation needs no DDS and no deployment"
 deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
+deny deploy/methods 'idl/|services/' "what describes methods needs no DDS"
 deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
 for stage in segmentation line_fitting corner_estimation; do
   deny "services/$stage" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"

@@ -5,43 +5,22 @@
 // Eigen: the mean, then the products about it. Run on one processor and divide the times:
 //   taskset -c 1 fitting_benchmark --benchmark_enable_random_interleaving=true
 //                --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
-#include <cmath>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 #include <benchmark/benchmark.h>
 
+#include "core/evaluation/fit_timing.hpp"
 #include "core/fitting/arras_siegwart_literal.hpp"
 #include "core/fitting/fitters.hpp"
 
 namespace {
 
-/// Several noisy walls of the same number of points in turn, so that neither branches nor the
-/// number of iterations are those of one wall.
+/// The walls in turn.
 class Walls {
  public:
-  explicit Walls(std::size_t points) : walls_(points < 10000 ? 16 : 2) {
-    std::mt19937_64 engine(20260422);
-    std::normal_distribution<double> normal;
-    const quoin::SensorModel sensor;
-    for (std::size_t k = 0; k < walls_.size(); ++k) {
-      quoin::Points& wall = walls_[k];
-      wall.resize(points);
-      const double alpha = -3.0 + 0.37 * static_cast<double>(k);
-      for (std::size_t i = 0; i < points; ++i) {
-        const double phi = -0.4 + static_cast<double>(i) / static_cast<double>(points);
-        wall.range[i] = 2.0 / std::cos(phi) + sensor.range_stddev * normal(engine);
-        wall.bearing[i] = alpha + phi + sensor.bearing_stddev * normal(engine);
-        wall.cosine[i] = std::cos(wall.bearing[i]);
-        wall.sine[i] = std::sin(wall.bearing[i]);
-        wall.x[i] = wall.range[i] * wall.cosine[i];
-        wall.y[i] = wall.range[i] * wall.sine[i];
-      }
-    }
-  }
+  explicit Walls(std::size_t points) : walls_(quoin::timing_walls(points)) {}
 
   const quoin::Points& next() {
     index_ = index_ + 1 < walls_.size() ? index_ + 1 : 0;
@@ -59,20 +38,7 @@ std::size_t points_of(const benchmark::State& state) {
 
 void eigen_covariance(benchmark::State& state) {
   Walls walls(points_of(state));
-  for (auto _ : state) {
-    const quoin::Points& p = walls.next();
-    const auto size = static_cast<Eigen::Index>(p.size());
-    const Eigen::Map<const Eigen::ArrayXd> x(p.x.data(), size);
-    const Eigen::Map<const Eigen::ArrayXd> y(p.y.data(), size);
-    const double mean_x = x.mean();
-    const double mean_y = y.mean();
-    Eigen::Matrix2d covariance;
-    covariance(0, 0) = (x - mean_x).square().sum();
-    covariance(0, 1) = covariance(1, 0) = ((x - mean_x) * (y - mean_y)).sum();
-    covariance(1, 1) = (y - mean_y).square().sum();
-    covariance /= static_cast<double>(size - 1);
-    benchmark::DoNotOptimize(covariance);
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(quoin::plain_covariance(walls.next()));
 }
 
 void fit(benchmark::State& state, const std::string& name) {

@@ -72,6 +72,7 @@ TEST(Kinds, EveryParameterIsDescribedAndItsDefaultIsValid) {
     for (const MethodInfo& method : kind.methods) {
       EXPECT_FALSE(method.description.empty()) << method.name;
       EXPECT_FALSE(method.source.empty()) << method.name;
+      EXPECT_FALSE(method.choose.empty()) << method.name;
       lists.push_back(method.parameters);
     }
     for (const auto& list : lists) {

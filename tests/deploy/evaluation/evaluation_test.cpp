@@ -255,6 +255,30 @@ TEST(Evaluation, TimesAreMeasuredUnlessTheyAreUnwanted) {
   EXPECT_EQ(count(cwlf.html, "<svg"), 2U + 2U + 2U);
 }
 
+TEST(Evaluation, TimesOfFitsStandBesideAPlainCovariance) {
+  EvaluationOptions options = quick("consistency");
+  options.trials = 2;
+  for (const bool timing : {false, true}) {
+    options.timing = timing;
+    const json times = report_of(options)["fit_times"];
+    ASSERT_EQ(times.size(), 3U);
+    EXPECT_EQ(times[0]["name"], "utls");
+    EXPECT_EQ(times[1]["name"], "wctls");
+    EXPECT_EQ(times[2]["name"], "plain_covariance");
+    for (const json& time : times) {
+      EXPECT_EQ(time["points"], 100);
+      EXPECT_EQ(time["seconds"].is_null(), !timing);
+      EXPECT_EQ(time["over_covariance"].is_null(), !timing);
+      if (!timing) continue;
+      EXPECT_GT(time["seconds"].get<double>(), 0.0);
+      EXPECT_DOUBLE_EQ(time["over_covariance"].get<double>(),
+                       time["seconds"].get<double>() / times[2]["seconds"].get<double>());
+    }
+    EXPECT_EQ(evaluate(prepare(options), always).html.find("Time of a fit") != std::string::npos,
+              timing);
+  }
+}
+
 TEST(Evaluation, ScanFilesAreExtracted) {
   const TemporaryFolder folder;
   EvaluationOptions options = quick("scans");

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/fitting/fit.hpp"
+#include "core/sensor/points.hpp"
+
+namespace quoin {
+
+/// Several noisy walls of `points` points each, to be fitted in turn, so that neither branches nor
+/// the number of iterations are those of one wall.
+[[nodiscard]] std::vector<Points> timing_walls(std::size_t points);
+
+/// Covariance of x and y [m^2] with Eigen: the mean, then the products about it. The plain thing to
+/// do with the points of a segment, and a measure of what a fit costs.
+[[nodiscard]] Eigen::Matrix2d plain_covariance(const PointsView& points);
+
+/// Time [s] of one fit with its covariance, mean over the walls.
+[[nodiscard]] double seconds_per_fit(const Fitter& fitter, const std::vector<Points>& walls);
+/// Time [s] of one plain covariance.
+[[nodiscard]] double seconds_per_plain_covariance(const std::vector<Points>& walls);
+
+}  // namespace quoin
