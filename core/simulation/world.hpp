@@ -49,7 +49,9 @@ struct World {
 [[nodiscard]] std::vector<std::string> world_names();
 
 /// A built-in world, or nothing when there is none of that name. `environment_a` and
-/// `environment_b` follow the sizes, point and segment counts of the WCTLS paper's section 4.
+/// `environment_b` follow the sizes, point and segment counts of the WCTLS paper's section 4,
+/// `cwlf_environment_a` and `cwlf_environment_b` the sizes, segment and corner counts of the CWLF
+/// paper's section V.
 [[nodiscard]] std::optional<World> built_in_world(std::string_view name);
 
 }  // namespace quoin
