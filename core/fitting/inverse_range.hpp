@@ -21,9 +21,9 @@ class InverseRange {
   static constexpr const char* source =
       "weighted least squares on the noise model of ranges and bearings";
   static constexpr const char* choose =
-      "For the optimal weights without an iteration, at up to about 10 mm of noise. Not at 50 mm: "
-      "there it refuses short and near walls (through_sensor), and what it still fits is hardly "
-      "better than with wctls.";
+      "For nearly everything: as accurate as maximum_likelihood and with as true a covariance "
+      "at any noise, in half of its time and without an open-ended iteration. Within a few "
+      "centimetres of the sensor it names through_sensor.";
 
   using Parameters = CovarianceParameters;
 

@@ -50,7 +50,7 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
   double lowest = std::numeric_limits<double>::infinity();
   Eigen::Vector2d step = Eigen::Vector2d::Zero();
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-    const NormalResiduals sums = normal_residuals(points, line, variances);
+    const NormalResiduals sums = normal_residuals_with_curvature(points, line, variances);
     // A step that leads uphill, by more than rounding, is shortened.
     if (sums.value > lowest * (1.0 + 1e-9)) {
       step *= 0.25;

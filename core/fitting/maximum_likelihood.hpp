@@ -21,9 +21,9 @@ class MaximumLikelihood {
   static constexpr const char* source =
       "Newton iteration on the noise model of ranges and bearings";
   static constexpr const char* choose =
-      "Where accuracy is worth several times the time of wctls: the nearest to the Cramer-Rao "
-      "bound over all noises, hardly biased, and at home with lines through the sensor. The noise "
-      "model must be right, for it takes its weights from it.";
+      "Where lines may pass through the sensor, or as the reference: attains the Cramer-Rao "
+      "bound at any noise, with a covariance that holds. The noise model must be right, for it "
+      "takes its weights from it.";
 
   using Parameters = CovarianceParameters;
 

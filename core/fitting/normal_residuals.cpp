@@ -12,11 +12,13 @@
 namespace quoin {
 namespace {
 
-QUOIN_MULTIVERSION
-void add_up(const double* __restrict cosine, const double* __restrict sine,
-            const double* __restrict range, std::size_t count, double nx, double ny, double r,
-            double tangential_anchor, double offset, double range_variance, double bearing_variance,
-            NormalResiduals& out) {
+template <bool second_derivatives>
+[[gnu::always_inline]] inline void add_up(const double* __restrict cosine,
+                                          const double* __restrict sine,
+                                          const double* __restrict range, std::size_t count,
+                                          double nx, double ny, double r, double tangential_anchor,
+                                          double offset, double range_variance,
+                                          double bearing_variance, NormalResiduals& out) {
   NormalResiduals sums;
   for (std::size_t i = 0; i < count; ++i) {
     const double c = cosine[i] * nx + sine[i] * ny;
@@ -25,23 +27,42 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
     const double t = range[i] * s - tangential_anchor;
     const double across = range[i] * range[i] * bearing_variance;
     const double w = 1.0 / (range_variance * c * c + across * s * s);
-    const double v1 = 2.0 * w * s * c * (range_variance - across);            // v' / v
-    const double v2 = 2.0 * w * (s * s - c * c) * (range_variance - across);  // v'' / v
+    const double half_v1 = w * s * c * (range_variance - across);  // v' / 2 v
     const double wd = w * d;
-    const double wt = w * t;
-    sums.value += wd * d;
     // Where the point was along the line, given how far it is off.
-    const double place = t - 0.5 * d * v1;
+    const double place = t - d * half_v1;
+    sums.value += wd * d;
     sums.information.xx += w * place * place;
     sums.information.xy -= w * place;
-    sums.scatter += w * w * range_variance * across;
     sums.information.yy += w;
-    sums.xx += wt * t - wd * (d + offset + 2.0 * t * v1 + d * (0.5 * v2 - v1 * v1));
-    sums.xy += wd * v1 - wt;
+    sums.scatter += w * w * range_variance * across;
     sums.descent_x -= wd * place;
     sums.descent_y += wd;
+    if constexpr (second_derivatives) {
+      const double v1 = 2.0 * half_v1;
+      const double v2 = 2.0 * w * (s * s - c * c) * (range_variance - across);  // v'' / v
+      const double wt = w * t;
+      sums.xx += wt * t - wd * (d + offset + 2.0 * t * v1 + d * (0.5 * v2 - v1 * v1));
+      sums.xy += wd * v1 - wt;
+    }
   }
   out = sums;
+}
+
+QUOIN_MULTIVERSION
+void add_up_first(const double* cosine, const double* sine, const double* range, std::size_t count,
+                  double nx, double ny, double r, double tangential_anchor, double range_variance,
+                  double bearing_variance, NormalResiduals& out) {
+  add_up<false>(cosine, sine, range, count, nx, ny, r, tangential_anchor, 0.0, range_variance,
+                bearing_variance, out);
+}
+
+QUOIN_MULTIVERSION
+void add_up_second(const double* cosine, const double* sine, const double* range, std::size_t count,
+                   double nx, double ny, double r, double tangential_anchor, double offset,
+                   double range_variance, double bearing_variance, NormalResiduals& out) {
+  add_up<true>(cosine, sine, range, count, nx, ny, r, tangential_anchor, offset, range_variance,
+               bearing_variance, out);
 }
 
 }  // namespace
@@ -57,9 +78,18 @@ AnchoredLine AnchoredLine::moved(const Eigen::Vector2d& step) const {
 NormalResiduals normal_residuals(const PointsView& points, const AnchoredLine& line,
                                  const WeightVariances& variances) {
   NormalResiduals sums;
-  add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-         line.normal.x(), line.normal.y(), line.r(), line.tangential(), line.offset,
-         variances.range, variances.bearing, sums);
+  add_up_first(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
+               line.normal.x(), line.normal.y(), line.r(), line.tangential(), variances.range,
+               variances.bearing, sums);
+  return sums;
+}
+
+NormalResiduals normal_residuals_with_curvature(const PointsView& points, const AnchoredLine& line,
+                                                const WeightVariances& variances) {
+  NormalResiduals sums;
+  add_up_second(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
+                line.normal.x(), line.normal.y(), line.r(), line.tangential(), line.offset,
+                variances.range, variances.bearing, sums);
   return sums;
 }
 

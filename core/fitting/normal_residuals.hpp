@@ -37,7 +37,7 @@ struct AnchoredLine {
 struct NormalResiduals {
   double value = 0.0;      ///< sum of d^2 / v
   Symmetric2 information;  ///< of Fisher, with the estimated place of each point along the line
-  double xx = 0.0;         ///< second derivatives where they differ from that
+  double xx = 0.0;         ///< second derivatives where they differ from that, if asked for
   double xy = 0.0;
   double descent_x = 0.0;  ///< first derivatives, turned downhill
   double descent_y = 0.0;
@@ -46,6 +46,10 @@ struct NormalResiduals {
 
 [[nodiscard]] NormalResiduals normal_residuals(const PointsView& points, const AnchoredLine& line,
                                                const WeightVariances& variances);
+
+[[nodiscard]] NormalResiduals normal_residuals_with_curvature(const PointsView& points,
+                                                              const AnchoredLine& line,
+                                                              const WeightVariances& variances);
 
 /// The line with the covariance of (alpha, r): the Cramer-Rao bound from the Fisher information
 /// less what the points' noise along the line adds to their spread. `failure` says what it is when

@@ -20,10 +20,10 @@ class Wctls {
       "weighted conformal total least squares: the line by its point Q in the inverted plane";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
   static constexpr const char* choose =
-      "For nearly everything: no iteration, a covariance that holds, and an error a few percent "
-      "above the Cramer-Rao bound at 10 mm of noise. At 50 mm its error and the corners outside "
-      "their ellipses become somewhat more, and maximum_likelihood is better; it cannot express "
-      "lines through the sensor.";
+      "For the shortest time with a covariance that holds while the noise of the bearings is "
+      "small against their spacing; where it is as large, lines far from the foot of the "
+      "perpendicular are biased, and inverse_range is better. Not within a few decimetres of "
+      "the sensor.";
 
   using Parameters = CovarianceParameters;
 

@@ -72,8 +72,8 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
   const double dy = points.y[segment.end - 1] - points.y[segment.begin];
   const double squared = dx * dx + dy * dy;
   if (!(squared > 4.0 * tolerance.base)) return 0.0;
-  // A bow within the tolerance is not deep enough to be bent when it is long.
-  if (max_bend * max_bend * squared > tolerance.largest) return squared;
+  // Longer than ten times the tolerance, with the default bend: no table leg, bin or person.
+  if (4.0 * max_bend * max_bend * squared > tolerance.largest) return squared;
   const double length = std::sqrt(squared);
   const NormalLine chord{-dy / length, dx / length, 0.0};
   const std::size_t middle = segment.begin + segment.size() / 2;
