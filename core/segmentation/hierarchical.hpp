@@ -11,7 +11,7 @@
 
 namespace quoin {
 
-/// Clusters on two levels (Opromolla et al. 2018). First, on top of the shared break points, the
+/// Clusters on two levels (Opromolla et al. 2017). First, on top of the shared break points, the
 /// surface breaks between points farther apart than `cluster_distance`. Second, it breaks where the
 /// derivative of one of two functions of the bearing has a local peak above its mean and one
 /// standard deviation over the cluster. What is then elongated enough by its principal axes is a
@@ -27,7 +27,7 @@ class Hierarchical {
   static constexpr const char* name = "hierarchical";
   static constexpr const char* description =
       "hierarchical clusters: splits at gaps, then where the slopes of x and y change";
-  static constexpr const char* source = "Opromolla et al. 2018 (derivatives reconstructed)";
+  static constexpr const char* source = "Opromolla et al. 2017 (derivatives reconstructed)";
   static constexpr const char* choose =
       "At up to 10 mm when false segments must be as few as possible and a missed wall does not "
       "matter. Not from 20 mm on, where it misses walls, and at 50 mm nearly all: its limits do "
