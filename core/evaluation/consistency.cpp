@@ -15,28 +15,14 @@
 namespace quoin {
 namespace {
 
-/// Values of which the mean and its uncertainty are wanted.
-struct Sums {
-  double sum = 0.0;
-  double squares = 0.0;
-  std::size_t count = 0;
-
-  void add(double value) {
-    sum += value;
-    squares += value * value;
-    ++count;
-  }
-  [[nodiscard]] Interval mean() const { return quoin::mean(sum, squares, count); }
-};
-
 constexpr std::size_t batch_count = 20;  // enough to know a spread to a sixth of itself
 
 struct CornerSums {
-  Sums nees;
+  MeanSums nees;
   std::size_t covered = 0;
   double squared_error = 0.0;  // [m^2]
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
-  std::array<Sums, batch_count> batches;  // of the squared error [m^2]
+  std::array<MeanSums, batch_count> batches;  // of the squared error [m^2]
 };
 
 /// Root of the mean squared distance [m] at the bound, for each corner.
@@ -67,12 +53,12 @@ Interval rmse_over_bound(const std::vector<CornerSums>& corners,
     if (count == 0 || !(bounds[k] > 0.0)) continue;
     ratios.push_back(std::sqrt(corners[k].squared_error / static_cast<double>(count)) / bounds[k]);
     for (std::size_t b = 0; b < batch_count; ++b) {
-      const Sums& sums = corners[k].batches[b];
+      const MeanSums& sums = corners[k].batches[b];
       if (sums.count > 0) batches[b].push_back(std::sqrt(sums.mean().value) / bounds[k]);
     }
   }
   const double value = median(std::move(ratios));
-  Sums spread;
+  MeanSums spread;
   for (std::vector<double>& batch : batches) {
     if (batch.empty()) return {value, value, value};
     spread.add(median(std::move(batch)));
@@ -93,8 +79,8 @@ Consistency judge_consistency(const Fitter& fitter, const Scene& scene, const Se
   Points points;
   std::vector<FitResult> lines(scene.walls.size());
   std::vector<CornerSums> corners(scene.corners.size());
-  Sums nees;  // means of a trial: its corners share lines and are not independent
-  Sums coverage;
+  MeanSums nees;  // means of a trial: its corners share lines and are not independent
+  MeanSums coverage;
   for (std::size_t trial = 0; trial < trials; ++trial) {
     for (std::size_t k = 0; k < scene.walls.size(); ++k) {
       measure(scene.walls[k], noise, random, points);

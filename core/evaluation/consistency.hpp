@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,9 +12,6 @@
 #include "core/fitting/fit.hpp"
 
 namespace quoin {
-
-/// How often each FitFailure occurred, indexed by its value.
-using FailureCounts = std::array<std::size_t, EnumNames<FitFailure>::names.size()>;
 
 /// How true the covariance of one corner is.
 struct CornerConsistency {

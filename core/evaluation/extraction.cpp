@@ -35,4 +35,9 @@ void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
   finder_(lines_, fitting.range_bias_stddev, corners_);
 }
 
+void Extraction::count_failures(FailureCounts& counts) const {
+  for (const FitFailure failure : failures_) ++counts[static_cast<std::size_t>(failure)];
+  counts[static_cast<std::size_t>(FitFailure::none)] += lines_.size();
+}
+
 }  // namespace quoin

@@ -42,6 +42,8 @@ class Extraction {
   [[nodiscard]] const std::vector<Segment>& fitted() const { return fitted_; }
   [[nodiscard]] const std::vector<FitFailure>& failures() const { return failures_; }
   [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
+  /// Adds the segments of the last scan to `counts`, those with a line under FitFailure::none.
+  void count_failures(FailureCounts& counts) const;
 
  private:
   Segmenter segmenter_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/evaluation/stopwatch.hpp"
+#include "core/sensor/polar.hpp"
 #include "core/simulation/random.hpp"
 
 namespace quoin {
@@ -36,11 +37,8 @@ std::vector<Points> timing_walls(std::size_t points) {
       const double phi = -0.4 + static_cast<double>(i) / static_cast<double>(points);
       wall.range[i] = distance / std::cos(phi) + sensor.range_stddev * random.normal();
       wall.bearing[i] = alpha + phi + sensor.bearing_stddev * random.normal();
-      wall.cosine[i] = std::cos(wall.bearing[i]);
-      wall.sine[i] = std::sin(wall.bearing[i]);
-      wall.x[i] = wall.range[i] * wall.cosine[i];
-      wall.y[i] = wall.range[i] * wall.sine[i];
     }
+    compute_cartesian(wall);
   }
   return walls;
 }

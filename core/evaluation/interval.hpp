@@ -23,4 +23,18 @@ struct Interval {
 /// Mean of independent values from their sums, interval by the normal distribution.
 [[nodiscard]] Interval mean(double sum, double sum_of_squares, std::size_t count);
 
+/// Values of which the mean and its uncertainty are wanted.
+struct MeanSums {
+  double sum = 0.0;
+  double squares = 0.0;
+  std::size_t count = 0;
+
+  void add(double value) {
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
+  [[nodiscard]] Interval mean() const { return quoin::mean(sum, squares, count); }
+};
+
 }  // namespace quoin

@@ -68,25 +68,19 @@ LoopCoverage judge_loop(Extraction& extraction, const World& world, const Sensor
   LoopCoverage result;
   SimulatedScan scan;
   ClusteredProportion coverage;
-  std::size_t segments = 0, corners = 0, within = 0;
-  double nees = 0.0, nees_squares = 0.0;
+  std::size_t segments = 0, corners = 0;
+  MeanSums nees;  // of the corners within four sigma
   for (; result.scans < scans; ++result.scans) {
     scanner.scan(0.0, 0.0, scan);
     extraction.run(view(scan, settings), noise, noise);
     segments += extraction.segments().size();
     corners += extraction.corners().size();
-    for (const FitFailure failure : extraction.failures()) {
-      ++result.failures[static_cast<std::size_t>(failure)];
-    }
-    result.failures[static_cast<std::size_t>(FitFailure::none)] += extraction.lines().size();
+    extraction.count_failures(result.failures);
     std::size_t covered = 0;
     for (const Corner& corner : extraction.corners()) {
       const double squared = distance_to_truth(corner.estimate, truth);
       covered += squared <= chi_square_2_95 ? 1 : 0;
-      if (!(squared <= four_sigma)) continue;
-      ++within;
-      nees += squared;
-      nees_squares += squared * squared;
+      if (squared <= four_sigma) nees.add(squared);
     }
     coverage.add(covered, extraction.corners().size());
   }
@@ -94,9 +88,10 @@ LoopCoverage judge_loop(Extraction& extraction, const World& world, const Sensor
   result.segments_per_scan = static_cast<double>(segments) / static_cast<double>(scans);
   result.corners_per_scan = static_cast<double>(corners) / static_cast<double>(scans);
   result.coverage95 = coverage.interval();
-  result.nees = mean(nees, nees_squares, within);
+  result.nees = nees.mean();
   if (corners > 0) {
-    result.beyond_four_sigma = static_cast<double>(corners - within) / static_cast<double>(corners);
+    result.beyond_four_sigma =
+        static_cast<double>(corners - nees.count) / static_cast<double>(corners);
   }
   return result;
 }

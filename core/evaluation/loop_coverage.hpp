@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/evaluation/consistency.hpp"
 #include "core/evaluation/extraction.hpp"
 #include "core/evaluation/interval.hpp"
 #include "core/sensor/sensor_model.hpp"

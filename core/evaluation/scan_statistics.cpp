@@ -11,10 +11,7 @@ namespace quoin {
 void ScanStatistics::add(const Extraction& extraction, const SensorModel& sensor) {
   ++scans_;
   segments_ += extraction.segments().size();
-  for (const FitFailure failure : extraction.failures()) {
-    ++failures_[static_cast<std::size_t>(failure)];
-  }
-  failures_[static_cast<std::size_t>(FitFailure::none)] += extraction.lines().size();
+  extraction.count_failures(failures_);
   for (std::size_t k = 0; k < extraction.lines().size(); ++k) {
     const Segment& segment = extraction.fitted()[k];
     if (segment.size() < 3) continue;

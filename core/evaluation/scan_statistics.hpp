@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/evaluation/consistency.hpp"
 #include "core/evaluation/extraction.hpp"
 
 namespace quoin {

@@ -61,6 +61,9 @@ struct EnumNames<FitFailure> {
        {FitFailure::not_converged, "not_converged"}}};
 };
 
+/// How often each FitFailure occurred, indexed by its value.
+using FailureCounts = std::array<std::size_t, EnumNames<FitFailure>::names.size()>;
+
 /// Line fitted to the points of one segment, or the reason why there is none.
 struct FitResult {
   LineEstimate estimate;

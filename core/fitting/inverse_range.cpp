@@ -28,7 +28,7 @@ FitResult InverseRange::operator()(const PointsView& points, const SensorModel& 
     // Near the sensor, for the noise of the bearings, the regression is too far off to start from.
     const double length = change->q.x() * sums.descent_x + change->q.y() * sums.descent_y;
     if (!(length <= longest_last_step)) return FitResult::failed(FitFailure::through_sensor);
-    return fitted(line, sums, FitFailure::degenerate);
+    return fitted(line, sums);
   }
 }
 

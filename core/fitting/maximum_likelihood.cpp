@@ -72,7 +72,7 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
     line = line.moved(step);
     if (step.x() * sums.descent_x + step.y() * sums.descent_y <= small_step ||
         (std::abs(step.x()) < rounding && std::abs(step.y()) < rounding * size)) {
-      FitResult result = fitted(line, sums, FitFailure::degenerate);
+      FitResult result = fitted(line, sums);
       if (result.ok()) result.iterations = iteration;
       return result;
     }

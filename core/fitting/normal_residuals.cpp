@@ -93,14 +93,14 @@ NormalResiduals normal_residuals_with_curvature(const PointsView& points, const 
   return sums;
 }
 
-FitResult fitted(const AnchoredLine& line, const NormalResiduals& residuals, FitFailure failure) {
+FitResult fitted(const AnchoredLine& line, const NormalResiduals& residuals) {
   // Few points within their own noise would lose all of their spread.
   constexpr double most = 0.5;
   Symmetric2 information = residuals.information;
   const double spread = information.xx - information.xy * information.xy / information.yy;
   information.xx -= std::min(residuals.scatter, most * spread);
   const auto inverse = solve_inverse_line(information, 0.0, 0.0);
-  if (!inverse) return FitResult::failed(failure);
+  if (!inverse) return FitResult::failed(FitFailure::degenerate);
   const LineEstimate estimate =
       normalized({{direction_of(line.normal.x(), line.normal.y()), line.r()},
                   from_offset_at_mean(inverse->inverse, line.tangential())});

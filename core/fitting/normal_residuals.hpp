@@ -52,9 +52,8 @@ struct NormalResiduals {
                                                               const WeightVariances& variances);
 
 /// The line with the covariance of (alpha, r): the Cramer-Rao bound from the Fisher information
-/// less what the points' noise along the line adds to their spread. `failure` says what it is when
-/// the information is singular.
-[[nodiscard]] FitResult fitted(const AnchoredLine& line, const NormalResiduals& residuals,
-                               FitFailure failure);
+/// less what the points' noise along the line adds to their spread; degenerate when the information
+/// is singular.
+[[nodiscard]] FitResult fitted(const AnchoredLine& line, const NormalResiduals& residuals);
 
 }  // namespace quoin

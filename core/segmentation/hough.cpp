@@ -65,9 +65,7 @@ void Hough::operator()(const PointsView& points, const SensorModel& sensor,
   for (const Segment& cluster : builder_.clusters()) {
     if (cluster.size() < fewest_) continue;
     search(points, cluster);
-    std::sort(found_.begin(), found_.end(),
-              [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
-    for (const Segment& run : found_) builder_.add(run);
+    builder_.add_all(found_);
   }
   builder_.finish(points, segments);
 }

@@ -64,7 +64,7 @@ void LineMixture::compute_density(const PointsView& points, const Tolerance& tol
         line.normal_y * (points.x[i] - fit.x) - line.normal_x * (points.y[i] - fit.y);
     const double exponent_along = along * along * inverse_along;
     if (exponent_along > farthest_along) continue;
-    const double across = line.normal_x * points.x[i] + line.normal_y * points.y[i] - line.offset;
+    const double across = line.distance(points.x[i], points.y[i]);
     const double squared = tolerance.squared(points, i, line.normal_x, line.normal_y);
     if (across * across > largest_outlier * squared) continue;
     const double inverse = variances_in_tolerance / squared;

@@ -61,9 +61,7 @@ void Ransac::operator()(const PointsView& points, const SensorModel& sensor,
       stack_.push_back({run.end, range.end});
       stack_.push_back({range.begin, run.begin});
     }
-    std::sort(found_.begin(), found_.end(),
-              [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
-    for (const Segment& run : found_) builder_.add(run);
+    builder_.add_all(found_);
   }
   builder_.finish(points, segments);
 }

@@ -11,7 +11,7 @@ constexpr int most_refinements = 10;
 
 double excess_of(const NormalLine& line, const PointsView& points, std::size_t i,
                  const Tolerance& tolerance) {
-  const double distance = line.normal_x * points.x[i] + line.normal_y * points.y[i] - line.offset;
+  const double distance = line.distance(points.x[i], points.y[i]);
   return distance * distance / tolerance.squared(points, i, line.normal_x, line.normal_y);
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segmentation/segment_builder.hpp"
 
+#include <algorithm>
+
 #include "core/segmentation/merging.hpp"
 #include "core/segmentation/refinement.hpp"
 #include "core/segmentation/selection.hpp"
@@ -26,6 +28,12 @@ void SegmentBuilder::add(const Segment& piece) {
       !pieces_.empty() && before == cluster_ &&
       piece.begin - pieces_.back().segment.end < largest_gap(parameters_.min_points);
   pieces_.push_back({piece, joined});
+}
+
+void SegmentBuilder::add_all(std::vector<Segment>& pieces) {
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  for (const Segment& piece : pieces) add(piece);
 }
 
 void SegmentBuilder::finish(const PointsView& points, std::vector<Segment>& segments) {

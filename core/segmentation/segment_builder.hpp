@@ -33,6 +33,9 @@ class SegmentBuilder {
   /// cluster. Points between pieces belong to none.
   void add(const Segment& piece);
 
+  /// The pieces of one cluster, found in any order; sorts them.
+  void add_all(std::vector<Segment>& pieces);
+
   /// Merges, refines and selects as the parameters say.
   void finish(const PointsView& points, std::vector<Segment>& segments);
 

@@ -15,8 +15,7 @@ std::size_t farthest_on_side(const PointsView& points, const Segment& piece, con
   std::size_t farthest = piece.begin;
   double largest = 0.0;
   for (std::size_t i = piece.begin + fewest_to_split; i + fewest_to_split < piece.end; ++i) {
-    const double distance =
-        sign * (line.normal_x * points.x[i] + line.normal_y * points.y[i] - line.offset);
+    const double distance = sign * line.distance(points.x[i], points.y[i]);
     if (distance > largest) {
       largest = distance;
       farthest = i;
@@ -42,8 +41,7 @@ std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& pi
   // The line through two walls is as far from their outer ends as from their corner, which is on
   // its other side.
   const std::size_t end = piece.begin + farthest.index;
-  const double distance =
-      fit->line.normal_x * points.x[end] + fit->line.normal_y * points.y[end] - fit->line.offset;
+  const double distance = fit->line.distance(points.x[end], points.y[end]);
   return farthest_on_side(points, piece, fit->line, distance > 0.0 ? -1.0 : 1.0);
 }
 

@@ -47,6 +47,11 @@ struct NormalLine {
   double normal_x = 1.0;
   double normal_y = 0.0;
   double offset = 0.0;  ///< [m]
+
+  /// Signed [m], of the point (x, y) [m].
+  [[nodiscard]] double distance(double x, double y) const {
+    return normal_x * x + normal_y * y - offset;
+  }
 };
 
 /// A point by its squared distance in units of its squared tolerance.

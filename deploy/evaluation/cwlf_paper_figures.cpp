@@ -9,6 +9,7 @@
 
 #include "deploy/drawing/plot.hpp"
 #include "deploy/drawing/svg.hpp"
+#include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/paper_corners.hpp"
 #include "deploy/report/table.hpp"
 
@@ -16,7 +17,6 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr double degrees = 180.0 / pi;
 constexpr double microseconds = 1e6;
 
 struct Step {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/figures.hpp"
 
-#include "core/geometry/angle.hpp"
 #include "deploy/drawing/svg.hpp"
 #include "deploy/report/table.hpp"
 
@@ -63,9 +62,18 @@ PlottedInterval plotted(const Interval& interval, double factor) {
   return {interval.value * factor, interval.low * factor, interval.high * factor};
 }
 
+IntervalChart coverage_chart(const std::string& where) {
+  IntervalChart chart;
+  chart.title = "Coverage of the 95 % ellipses, " + where;
+  chart.x.title = "corners inside their ellipse [%]";
+  chart.reference = 95.0;
+  chart.reference_name = "95 %";
+  return chart;
+}
+
 std::string noise_text(const SensorModel& noise) {
-  return number(noise.range_stddev * 1e3, 1) + " mm, " +
-         number(noise.bearing_stddev * 180.0 / pi, 3) + " deg";
+  return number(noise.range_stddev * 1e3, 1) + " mm, " + number(noise.bearing_stddev * degrees, 3) +
+         " deg";
 }
 
 SensorModel rplidar_noise(double range_stddev) {

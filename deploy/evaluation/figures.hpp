@@ -9,10 +9,13 @@
 
 #include "core/evaluation/consistency.hpp"
 #include "core/evaluation/interval.hpp"
+#include "core/geometry/angle.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "deploy/drawing/plot.hpp"
 
 namespace quoin::deploy {
+
+inline constexpr double degrees = 180.0 / pi;  ///< in a radian
 
 /// Adds `name` and `name`_interval to a JSON object.
 void add_interval(nlohmann::ordered_json& object, const std::string& name,
@@ -42,6 +45,9 @@ void add_published(nlohmann::ordered_json& report, const PublishedComparison& co
 /// "value [low, high]" times `factor`.
 [[nodiscard]] std::string interval_text(const Interval& interval, int digits, double factor = 1.0);
 [[nodiscard]] PlottedInterval plotted(const Interval& interval, double factor = 1.0);
+
+/// Of corners inside their 95 % ellipses [%], with 95 % marked, still without values.
+[[nodiscard]] IntervalChart coverage_chart(const std::string& where);
 
 /// Such as "50 mm, 0.391 deg".
 [[nodiscard]] std::string noise_text(const SensorModel& noise);

@@ -191,11 +191,7 @@ class ConsistencySection : public Section {
 
   void write_group(HtmlPage& page, const SensorModel& noise, std::size_t world) const {
     const std::string where = worlds_[world].name + ", " + noise_text(noise);
-    IntervalChart coverage;
-    coverage.title = "Coverage of the 95 % ellipses, " + where;
-    coverage.x.title = "corners inside their ellipse [%]";
-    coverage.reference = 95.0;
-    coverage.reference_name = "95 %";
+    IntervalChart coverage = coverage_chart(where);
     IntervalChart efficiency;
     efficiency.title = "RMSE over Cramer-Rao bound, " + where;
     efficiency.x.title = "RMSE/CRB";

@@ -15,7 +15,6 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr double degrees = 180.0 / pi;
 constexpr std::size_t compared_points = 100;  // the paper does not say which of 50 and 100
 
 std::string name_of(const CwlfPaperCorner& corner) {

@@ -101,11 +101,7 @@ class LoopSection : public Section {
  private:
   void write_segmenter(HtmlPage& page, const std::string& segmenter) const {
     page.heading(3, "Segmented by " + segmenter);
-    IntervalChart chart;
-    chart.title = "Coverage of the 95 % ellipses, segmented by " + segmenter;
-    chart.x.title = "corners inside their ellipse [%]";
-    chart.reference = 95.0;
-    chart.reference_name = "95 %";
+    IntervalChart chart = coverage_chart("segmented by " + segmenter);
     for (const World& world : worlds_) chart.series.push_back({world.name, {}});
     HtmlTable table{{},
                     {"fitter", "environment", "segments/scan", "corners/scan", "coverage [%]",

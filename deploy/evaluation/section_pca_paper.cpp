@@ -18,7 +18,6 @@ namespace quoin::deploy {
 namespace {
 
 constexpr std::size_t paper_trials = 10000;
-constexpr double degrees = 180.0 / pi;
 
 /// What changes from row to row in one of the paper's tables.
 struct Variation {

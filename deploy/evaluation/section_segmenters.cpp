@@ -25,7 +25,6 @@ constexpr std::size_t timed_scans = 20;
 // Rooms differ more than scans of one room: many rooms, and a tenth of the scans of each.
 constexpr std::size_t cluttered_room_count = 200;
 constexpr std::size_t fewer_scans = 10;
-constexpr double degrees = 180.0 / pi;
 
 struct Entry {
   std::string segmenter;
