@@ -34,8 +34,9 @@ void simulate(const PcaSimulation& simulation, Random& random, Points& points) {
   for (std::size_t i = 0; i < simulation.points; ++i) {
     points.range[i] = std::hypot(points.x[i], points.y[i]);
     points.bearing[i] = std::atan2(points.y[i], points.x[i]);
-    points.cosine[i] = points.x[i] / points.range[i];
-    points.sine[i] = points.y[i] / points.range[i];
+    points.inverse_range[i] = 1.0 / points.range[i];
+    points.cosine[i] = points.x[i] * points.inverse_range[i];
+    points.sine[i] = points.y[i] * points.inverse_range[i];
   }
 }
 

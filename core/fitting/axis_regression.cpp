@@ -37,12 +37,12 @@ struct Sums {
 
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict u, const double* __restrict v, const double* __restrict u_ray,
-            const double* __restrict v_ray, const double* __restrict range, std::size_t count,
-            double u_origin, double v_origin, double range_variance, double bearing_variance,
-            Sums& out) {
+            const double* __restrict v_ray, const double* __restrict inverse_range,
+            std::size_t count, double u_origin, double v_origin, double range_variance,
+            double bearing_variance, Sums& out) {
   Sums sums;
   for (std::size_t i = 0; i < count; ++i) {
-    const double per_range = u_ray[i] / range[i];
+    const double per_range = u_ray[i] * inverse_range[i];
     const double w =
         range_variance * per_range * per_range + bearing_variance * v_ray[i] * v_ray[i];
     const double du = u[i] - u_origin;
@@ -66,13 +66,12 @@ struct Regression {
 /// with its weight changed by dw moves the intercept by f = w (dv - slope du) + dw e and the slope
 /// by xi f + w e du.
 template <bool weighted>
-inline PointInfluence influence_of(double u, double v, double u_ray, double v_ray, double range,
+inline PointInfluence influence_of(double u, double v, double u_ray, double v_ray, double inverse,
                                    const Regression& fit) {
   double w = 1.0;
   double w_range = 0.0;
   double w_bearing = 0.0;
   if constexpr (weighted) {
-    const double inverse = 1.0 / range;
     const double across = fit.range_weight * inverse * inverse;
     w = across * u_ray * u_ray + fit.bearing_weight * v_ray * v_ray;
     w_range = -2.0 * across * inverse * u_ray * u_ray;
@@ -89,13 +88,13 @@ inline PointInfluence influence_of(double u, double v, double u_ray, double v_ra
 QUOIN_MULTIVERSION
 void add_up_influences(const double* __restrict u, const double* __restrict v,
                        const double* __restrict u_ray, const double* __restrict v_ray,
-                       const double* __restrict range, std::size_t count, bool weighted,
+                       const double* __restrict inverse_range, std::size_t count, bool weighted,
                        Regression fit, double range_variance, double bearing_variance,
                        Symmetric2& out) {
   Symmetric2 sums;
   if (weighted) {
     for (std::size_t i = 0; i < count; ++i) {
-      add_noise(sums, influence_of<true>(u[i], v[i], u_ray[i], v_ray[i], range[i], fit),
+      add_noise(sums, influence_of<true>(u[i], v[i], u_ray[i], v_ray[i], inverse_range[i], fit),
                 range_variance, bearing_variance);
     }
   } else {
@@ -145,8 +144,8 @@ AxisRegression fit_axis(const PointsView& points, AxisWeights weights,
   } else {
     const Axes axes(points, fit.y_on_x);
     Sums sums;
-    add_up(axes.u, axes.v, axes.u_ray, axes.v_ray, points.range.data(), points.size(), u_mean,
-           v_mean, variances.range, variances.bearing, sums);
+    add_up(axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
+           u_mean, v_mean, variances.range, variances.bearing, sums);
     const double u_shift = sums.wu / sums.w;
     const double v_shift = sums.wv / sums.w;
     fit.mean = u_mean + u_shift;
@@ -170,7 +169,7 @@ Symmetric2 axis_influence(const PointsView& points, AxisWeights weights, const A
   const WeightVariances variances(sensor);
   Symmetric2 sums;
   add_up_influences(
-      axes.u, axes.v, axes.u_ray, axes.v_ray, points.range.data(), points.size(),
+      axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
       weights == AxisWeights::conditional,
       {fit.slope, fit.mean, fit.intercept, axes.turn, variances.range, variances.bearing},
       sensor.range_stddev * sensor.range_stddev, sensor.bearing_stddev * sensor.bearing_stddev,

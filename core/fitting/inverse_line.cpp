@@ -22,7 +22,16 @@ std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx, do
   line.inverse = {m.yy * scale, -m.xy * scale, m.xx * scale};
   line.q = {line.inverse.xx * vx + line.inverse.xy * vy,
             line.inverse.xy * vx + line.inverse.yy * vy};
+  line.v = {vx, vy};
+  line.trace = m.xx + m.yy;
   return line;
+}
+
+void add_bearing_bias(const InverseLine& line, double bearing_variance, Symmetric2& influence) {
+  const Eigen::Vector2d bias = bearing_variance * (1.5 * line.v - line.trace * line.q);
+  influence.xx += bias.x() * bias.x();
+  influence.xy += bias.x() * bias.y();
+  influence.yy += bias.y() * bias.y();
 }
 
 FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence) {

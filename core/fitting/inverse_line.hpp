@@ -17,9 +17,17 @@ namespace quoin {
 struct InverseLine {
   Eigen::Vector2d q = Eigen::Vector2d::Zero();  ///< (cos alpha, sin alpha) / r [1/m]
   Symmetric2 inverse;                           ///< M^-1
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();
+  double trace = 0.0;  ///< of M
 };
 [[nodiscard]] std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx,
                                                             double vy);
+
+/// Adds the square of the bias that noise of the bearings gives the line to the summed influences
+/// on M q, whose expectation it makes that of the squared error. The noise turns the regressors p,
+/// M = sum p p', v = sum p z: to second order M grows by sigma_theta^2 (tr(M) I - 2 M) and v by
+/// -sigma_theta^2 v / 2, so that M q is off by sigma_theta^2 (3 v / 2 - tr(M) q).
+void add_bearing_bias(const InverseLine& line, double bearing_variance, Symmetric2& influence);
 
 /// The line in normal form and the covariance of (alpha, r) from M^-1 S M^-1, the covariance of q.
 [[nodiscard]] FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/fitting/inverse_range_regression.hpp"
 
-#include <cmath>
-
 #include "core/fitting/point_influence.hpp"
 #include "core/sensor/multiversion.hpp"
 
@@ -12,29 +10,28 @@ namespace {
 
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict cosine, const double* __restrict sine,
-            const double* __restrict range, std::size_t count, InverseRangeSums& out,
-            double& range_sum) {
+            const double* __restrict inverse_range, std::size_t count, InverseRangeSums& out,
+            double& infinite) {
   InverseRangeSums sums;
-  double total = 0.0;
+  double zeros = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1.0 / range[i];
+    const double z = inverse_range[i];
     sums.cc += cosine[i] * cosine[i];
     sums.cs += cosine[i] * sine[i];
     sums.ss += sine[i] * sine[i];
     sums.cz += cosine[i] * z;
     sums.sz += sine[i] * z;
-    total += range[i];
+    zeros += z > 0.0 ? 0.0 : 1.0;
   }
   out = sums;
-  range_sum = total;
+  infinite = zeros;
 }
 
 /// Influences of one point on M q, with e the residual of the regression and d the slope of the
-/// fitted inverse range with bearing:
+/// fitted inverse range z with bearing:
 ///   range:   -(c, s) z^2            bearing:  (-s, c) e - (c, s) d
 /// Exact derivatives: WCTLS eq. (14) and (15) with the weights differentiated, times M / c_w.
-inline PointInfluence influence_of(double c, double s, double range, double a, double b) {
-  const double z = 1.0 / range;
+inline PointInfluence influence_of(double c, double s, double z, double a, double b) {
   const double e = z - (c * a + s * b);
   const double d = c * b - s * a;
   return {-c * z * z, -s * z * z, -s * e - c * d, c * e - s * d};
@@ -42,11 +39,11 @@ inline PointInfluence influence_of(double c, double s, double range, double a, d
 
 QUOIN_MULTIVERSION
 void add_up_influences(const double* __restrict cosine, const double* __restrict sine,
-                       const double* __restrict range, std::size_t count, double a, double b,
-                       double range_variance, double bearing_variance, Symmetric2& out) {
+                       const double* __restrict inverse_range, std::size_t count, double a,
+                       double b, double range_variance, double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   for (std::size_t i = 0; i < count; ++i) {
-    add_noise(sums, influence_of(cosine[i], sine[i], range[i], a, b), range_variance,
+    add_noise(sums, influence_of(cosine[i], sine[i], inverse_range[i], a, b), range_variance,
               bearing_variance);
   }
   out = sums;
@@ -56,17 +53,17 @@ void add_up_influences(const double* __restrict cosine, const double* __restrict
 
 InverseRangeSums inverse_range_sums(const PointsView& points) {
   InverseRangeSums sums;
-  double range_sum = 0.0;
-  add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), sums,
-         range_sum);
+  double infinite = 0.0;
+  add_up(points.cosine.data(), points.sine.data(), points.inverse_range.data(), points.size(), sums,
+         infinite);
   return sums;
 }
 
 Symmetric2 inverse_range_influence(const PointsView& points, const Eigen::Vector2d& q,
                                    const SensorModel& sensor) {
   Symmetric2 sums;
-  add_up_influences(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-                    q.x(), q.y(), sensor.range_stddev * sensor.range_stddev,
+  add_up_influences(points.cosine.data(), points.sine.data(), points.inverse_range.data(),
+                    points.size(), q.x(), q.y(), sensor.range_stddev * sensor.range_stddev,
                     sensor.bearing_stddev * sensor.bearing_stddev, sums);
   return sums;
 }
@@ -75,7 +72,7 @@ Symmetric2 inverse_range_common_influence(const PointsView& points, const Eigen:
                                           const SensorModel& sensor) {
   PointInfluence sum;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += influence_of(points.cosine[i], points.sine[i], points.range[i], q.x(), q.y());
+    sum += influence_of(points.cosine[i], points.sine[i], points.inverse_range[i], q.x(), q.y());
   }
   Symmetric2 covariance;
   add_noise(covariance, sum, sensor.range_stddev * sensor.range_stddev,
@@ -86,11 +83,11 @@ Symmetric2 inverse_range_common_influence(const PointsView& points, const Eigen:
 FitFailure solve_inverse_range(const PointsView& points, InverseLine& line) {
   if (points.size() < 2) return FitFailure::too_few_points;
   InverseRangeSums sums;
-  double range_sum = 0.0;
-  add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), sums,
-         range_sum);
+  double infinite = 0.0;
+  add_up(points.cosine.data(), points.sine.data(), points.inverse_range.data(), points.size(), sums,
+         infinite);
   // The inverse of an infinite range is 0 and would pass for a measurement.
-  if (!std::isfinite(range_sum)) return FitFailure::not_finite;
+  if (infinite > 0.0) return FitFailure::not_finite;
   const auto solved = solve_inverse_line({sums.cc, sums.cs, sums.ss}, sums.cz, sums.sz);
   if (!solved) return reason_of_singularity(points);
   line = *solved;
@@ -102,9 +99,11 @@ FitResult fit_inverse_range(const PointsView& points, const SensorModel& sensor,
   InverseLine line;
   const FitFailure failure = solve_inverse_range(points, line);
   if (failure != FitFailure::none) return FitResult::failed(failure);
-  const Symmetric2 influence = common_errors
-                                   ? inverse_range_common_influence(points, line.q, sensor)
-                                   : inverse_range_influence(points, line.q, sensor);
+  if (common_errors) {
+    return to_normal_form(line, inverse_range_common_influence(points, line.q, sensor));
+  }
+  Symmetric2 influence = inverse_range_influence(points, line.q, sensor);
+  add_bearing_bias(line, sensor.bearing_stddev * sensor.bearing_stddev, influence);
   return to_normal_form(line, influence);
 }
 

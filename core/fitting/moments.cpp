@@ -8,14 +8,15 @@ namespace quoin {
 namespace {
 
 QUOIN_MULTIVERSION
-void add_up(const double* __restrict x, const double* __restrict y, const double* __restrict range,
-            std::size_t count, bool weighted, Moments& out) {
+void add_up(const double* __restrict x, const double* __restrict y,
+            const double* __restrict inverse_range, std::size_t count, bool weighted,
+            Moments& out) {
   // About the first point instead of the sensor: one pass, and no digits lost on far walls.
   const double x0 = x[0];
   const double y0 = y[0];
   Moments sums;
   for (std::size_t i = 0; i < count; ++i) {
-    const double w = weighted ? 1.0 / (range[i] * range[i]) : 1.0;
+    const double w = weighted ? inverse_range[i] * inverse_range[i] : 1.0;
     const double dx = x[i] - x0;
     const double dy = y[i] - y0;
     sums.weight += w;
@@ -32,7 +33,7 @@ void add_up(const double* __restrict x, const double* __restrict y, const double
 
 Moments moments_of(const PointsView& points, PointWeights weights) {
   Moments m;
-  add_up(points.x.data(), points.y.data(), points.range.data(), points.size(),
+  add_up(points.x.data(), points.y.data(), points.inverse_range.data(), points.size(),
          weights == PointWeights::inverse_square_range, m);
   m.mean_x /= m.weight;
   m.mean_y /= m.weight;

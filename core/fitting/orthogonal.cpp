@@ -21,9 +21,8 @@ namespace {
 /// d) + w' d t. Range noise displaces by (cos, sin) of the incidence angle and changes w, bearing
 /// noise by (-t, d) counted from the sensor.
 template <bool weighted>
-inline PointInfluence influence_of(double cosine, double sine, double x, double y, double range,
+inline PointInfluence influence_of(double cosine, double sine, double x, double y, double inverse,
                                    double nx, double ny, double mean_x, double mean_y) {
-  const double inverse = weighted ? 1.0 / range : 1.0;
   const double w = inverse * inverse;
   const double w_slope = weighted ? -2.0 * w * inverse : 0.0;
   const double d = (x - mean_x) * nx + (y - mean_y) * ny;
@@ -39,16 +38,16 @@ inline PointInfluence influence_of(double cosine, double sine, double x, double 
 QUOIN_MULTIVERSION
 void add_up_influences(const double* __restrict cosine, const double* __restrict sine,
                        const double* __restrict x, const double* __restrict y,
-                       const double* __restrict range, std::size_t count, bool weighted, double nx,
-                       double ny, double mean_x, double mean_y, double range_variance,
+                       const double* __restrict inverse_range, std::size_t count, bool weighted,
+                       double nx, double ny, double mean_x, double mean_y, double range_variance,
                        double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   if (weighted) {
     for (std::size_t i = 0; i < count; ++i) {
-      add_noise(
-          sums,
-          influence_of<true>(cosine[i], sine[i], x[i], y[i], range[i], nx, ny, mean_x, mean_y),
-          range_variance, bearing_variance);
+      add_noise(sums,
+                influence_of<true>(cosine[i], sine[i], x[i], y[i], inverse_range[i], nx, ny, mean_x,
+                                   mean_y),
+                range_variance, bearing_variance);
     }
   } else {
     for (std::size_t i = 0; i < count; ++i) {
@@ -104,7 +103,7 @@ Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights wei
                                       double bearing_variance) {
   Symmetric2 sums;
   add_up_influences(points.cosine.data(), points.sine.data(), points.x.data(), points.y.data(),
-                    points.range.data(), points.size(),
+                    points.inverse_range.data(), points.size(),
                     weights == PointWeights::inverse_square_range, fit.normal_x, fit.normal_y,
                     fit.moments.mean_x, fit.moments.mean_y, range_variance, bearing_variance, sums);
   const double alpha = -1.0 / (fit.along - fit.across);

@@ -84,6 +84,7 @@ FitResult Utls::operator()(const PointsView& points, const SensorModel& sensor) 
   } else {
     add_up_influences(points.cosine.data(), points.sine.data(), points.x.data(), points.y.data(),
                       points.size(), a, b, range_variance, bearing_variance, influence);
+    add_bearing_bias(*line, bearing_variance, influence);
   }
   return to_normal_form(*line, influence);
 }

@@ -17,7 +17,7 @@ void Iepf::split(const PointsView& points, const Segment& cluster) {
     if (chord.size() >= 3) {
       const FarthestPoint farthest =
           farthest_from_chord(points.subview(chord.begin, chord.end), builder_.tolerance());
-      if (farthest.excess > 1.0 && farthest.index > 0 && farthest.index + 1 < chord.size()) {
+      if (farthest.beyond() && farthest.index > 0 && farthest.index + 1 < chord.size()) {
         const std::size_t vertex = chord.begin + farthest.index;
         stack_.back() = {vertex, chord.end};
         stack_.push_back({chord.begin, vertex + 1});

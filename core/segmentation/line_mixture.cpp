@@ -35,7 +35,7 @@ void LineMixture::start(const PointsView& points, const Segment& cluster,
     Component component;
     component.moments = moments(begin, end);
     const auto fit = orthogonal_fit(component.moments);
-    if (!fit || farthest_from(fit->line, points.subview(begin, end), tolerance).excess > 1.0) {
+    if (!fit || farthest_from(fit->line, points.subview(begin, end), tolerance).beyond()) {
       continue;
     }
     component.fit = *fit;

@@ -23,15 +23,15 @@ Match match_of(const PointsView& points, const Piece& first, const Piece& second
   const InnerFit& longer = first_is_longer ? first.fit : second.fit;
   const std::size_t outer = first_is_longer ? second.segment.end - 1 : first.segment.begin;
   const PointsView outermost = points.subview(outer, outer + 1);
-  if (!(farthest_from(normal_line(longer), outermost, tolerance).excess <= 1.0)) return match;
+  if (farthest_from(normal_line(longer), outermost, tolerance).beyond()) return match;
 
   InverseRangeSums sums = first.fit.sums;
   sums += second.fit.sums;
   match.fit = inner_fit(sums);
   if (!(match.fit.norm > 0.0)) return match;
   const PointsView both = points.subview(first.segment.begin, second.segment.end);
-  const double excess = farthest_from(normal_line(match.fit), both, tolerance).excess;
-  if (excess <= 1.0) match.excess = excess;
+  const FarthestPoint farthest = farthest_from(normal_line(match.fit), both, tolerance);
+  if (!farthest.beyond()) match.excess = farthest.excess;
   return match;
 }
 

@@ -77,7 +77,7 @@ std::optional<JointFit> joint_fit(const MomentSums& first, const MomentSums& sec
   const double cosine = fit->line.offset / range;
   const double sine = (fit->y * fit->line.normal_x - fit->x * fit->line.normal_y) / range;
   return JointFit{*fit, rise * deviations_in_tolerance * deviations_in_tolerance /
-                            tolerance.squared(range, cosine, sine)};
+                            tolerance.squared(cosine, range * sine)};
 }
 
 void PrefixMoments::assign(const PointsView& points) {

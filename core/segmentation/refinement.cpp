@@ -41,8 +41,8 @@ double before(const PointsView& points, std::size_t i, const Intersection& p) {
 bool all_near(const PointsView& points, const Segment& segment, const InnerFit& fit,
               const Tolerance& tolerance) {
   if (segment.begin >= segment.end) return true;
-  return farthest_from(normal_line(fit), points.subview(segment.begin, segment.end), tolerance)
-             .excess <= 1.0;
+  return !farthest_from(normal_line(fit), points.subview(segment.begin, segment.end), tolerance)
+              .beyond();
 }
 
 /// Moves the boundary between two pieces to the corner of their lines.

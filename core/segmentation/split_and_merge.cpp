@@ -34,7 +34,7 @@ std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& pi
   if (!fit) return piece.begin;
   const FarthestPoint farthest =
       farthest_from(fit->line, points.subview(piece.begin, piece.end), builder_.tolerance());
-  if (farthest.excess <= 1.0) return piece.begin;
+  if (!farthest.beyond()) return piece.begin;
   if (farthest.index >= fewest_to_split && farthest.index + fewest_to_split < piece.size()) {
     return piece.begin + farthest.index;
   }

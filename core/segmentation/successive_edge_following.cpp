@@ -16,7 +16,7 @@ constexpr std::size_t fewest_to_predict = 5;
 void add(const PointsView& points, std::size_t i, double sign, InverseRangeSums& sums) {
   const double cosine = points.cosine[i];
   const double sine = points.sine[i];
-  const double inverse = 1.0 / points.range[i];
+  const double inverse = points.inverse_range[i];
   sums.cc += sign * cosine * cosine;
   sums.cs += sign * cosine * sine;
   sums.ss += sign * sine * sine;

@@ -10,16 +10,16 @@
 namespace quoin {
 namespace {
 
-/// The largest of limit and all measure(i) for i < count, and its place when it is more than the
-/// limit. Most segments are straight: the maximum alone is found by vector instructions, and its
-/// place is searched for when it matters.
+/// The largest of all measure(i) for i < count, and its place when it is more than `limit`. Most
+/// segments are straight: the maximum alone is found by vector instructions, and its place is
+/// searched for when it matters.
 template <class Measure>
 [[gnu::always_inline]] inline FarthestPoint largest_of(std::size_t count, double limit,
                                                        const Measure& measure) {
   // Two maxima at a time: one would wait for itself.
   const std::size_t half = count / 2;
-  double largest = 0.0;
-  double other = 0.0;
+  double largest = measure(0);
+  double other = largest;
   for (std::size_t i = 0; i < half; ++i) {
     const double value = measure(i);
     const double other_value = measure(half + i);
@@ -34,7 +34,7 @@ template <class Measure>
   if (largest <= limit) return {0, largest};
 
   // The first that is as large; instructions may round differently from loop to loop.
-  const double almost = largest * (1.0 - 1e-12);
+  const double almost = largest - 1e-12 * std::abs(largest);
   const auto none = static_cast<double>(count);
   double first = none;
   for (std::size_t i = 0; i < count; ++i) {
@@ -56,15 +56,14 @@ void farthest_fixed(const double* __restrict x, const double* __restrict y, std:
 }
 
 QUOIN_MULTIVERSION
-void farthest_raised(const double* __restrict range, const double* __restrict cosine,
-                     const double* __restrict sine, const double* __restrict x,
+void farthest_raised(const double* __restrict inverse_range, const double* __restrict x,
                      const double* __restrict y, std::size_t count, NormalLine line,
                      Tolerance tolerance, FarthestPoint& out) {
-  out = largest_of(count, 1.0, [=](std::size_t i) {
-    const double distance = line.normal_x * x[i] + line.normal_y * y[i] - line.offset;
-    const double cos_phi = cosine[i] * line.normal_x + sine[i] * line.normal_y;
-    const double sin_phi = sine[i] * line.normal_x - cosine[i] * line.normal_y;
-    return distance * distance / tolerance.squared(range[i], cos_phi, sin_phi);
+  out = largest_of(count, 0.0, [=](std::size_t i) {
+    const double normal = line.normal_x * x[i] + line.normal_y * y[i];
+    const double along = line.normal_x * y[i] - line.normal_y * x[i];
+    const double distance = normal - line.offset;
+    return distance * distance - tolerance.squared(normal * inverse_range[i], along);
   });
 }
 
@@ -101,13 +100,13 @@ FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
                             const Tolerance& tolerance) {
   FarthestPoint farthest;
   if (tolerance.raised()) {
-    farthest_raised(points.range.data(), points.cosine.data(), points.sine.data(), points.x.data(),
-                    points.y.data(), points.size(), line, tolerance, farthest);
+    farthest_raised(points.inverse_range.data(), points.x.data(), points.y.data(), points.size(),
+                    line, tolerance, farthest);
     return farthest;
   }
   farthest_fixed(points.x.data(), points.y.data(), points.size(), line.normal_x, line.normal_y,
                  line.offset, tolerance.base, farthest);
-  farthest.excess /= tolerance.base;
+  farthest.excess -= tolerance.base;
   return farthest;
 }
 
@@ -117,28 +116,24 @@ FarthestPoint farthest_from_chord(const PointsView& points, const Tolerance& tol
   const double squared = dx * dx + dy * dy;
   FarthestPoint farthest;
   if (squared > 1e-18) {
-    double distance_squared = 0.0;
     if (tolerance.raised()) {
       const double scale = 1.0 / std::sqrt(squared);
       NormalLine chord{-dy * scale, dx * scale, 0.0};
       chord.offset = chord.normal_x * points.x.front() + chord.normal_y * points.y.front();
       farthest = farthest_from(chord, points, tolerance);
-      distance_squared = farthest.excess * tolerance.largest;
     } else {
       // No root: the normal is as long as the chord.
       farthest_fixed(points.x.data(), points.y.data(), points.size(), -dy, dx,
                      dx * points.y.front() - dy * points.x.front(), squared * tolerance.base,
                      farthest);
-      if (farthest.index == 0 && tolerance.base <= squared) return {};
-      distance_squared = farthest.excess / squared;
-      farthest.excess = distance_squared / tolerance.base;
+      farthest.excess = farthest.excess / squared - tolerance.base;
     }
-    if (distance_squared <= squared) return farthest;
+    if (farthest.excess + tolerance.largest <= squared) return farthest;
   }
   // The contour of a whole room begins and ends at one place: the direction of so short a chord is
   // noise, and all points of a wall that it happens to be parallel to are equally far from it.
   farthest_from_first(points.x.data(), points.y.data(), points.size(), tolerance.largest, farthest);
-  farthest.excess /= tolerance.largest;
+  farthest.excess -= tolerance.largest;
   return farthest;
 }
 

@@ -27,18 +27,18 @@ struct Tolerance {
   /// Whether noise counts for any point; if not, all tolerances are `base`.
   [[nodiscard]] bool raised() const { return largest > base; }
 
-  /// [m^2] of a point at `distance` [m] from the sensor, whose ray has the components `cosine`
-  /// along the unit normal of the line and `sine` across it.
-  [[nodiscard]] double squared(double distance, double cosine, double sine) const {
-    const double noise = range * cosine * cosine + bearing * distance * distance * sine * sine;
+  /// [m^2] of a point `along` [m] the line from the foot of the perpendicular, whose ray meets the
+  /// line at an angle of this `cosine` to its normal.
+  [[nodiscard]] double squared(double cosine, double along) const {
+    const double noise = range * cosine * cosine + bearing * along * along;
     return noise > base ? noise : base;
   }
 
   /// [m^2] of point `i` and a line with this unit normal.
   [[nodiscard]] double squared(const PointsView& points, std::size_t i, double normal_x,
                                double normal_y) const {
-    return squared(points.range[i], points.cosine[i] * normal_x + points.sine[i] * normal_y,
-                   points.sine[i] * normal_x - points.cosine[i] * normal_y);
+    return squared(points.cosine[i] * normal_x + points.sine[i] * normal_y,
+                   points.y[i] * normal_x - points.x[i] * normal_y);
   }
 };
 
@@ -54,18 +54,20 @@ struct NormalLine {
   }
 };
 
-/// A point by its squared distance in units of its squared tolerance.
+/// A point by its squared distance less its squared tolerance.
 struct FarthestPoint {
   std::size_t index = 0;  ///< 0 when no point is beyond its tolerance
-  double excess = 0.0;    ///< more than 1 beyond it
+  double excess = 0.0;    ///< [m^2] positive beyond it
+
+  [[nodiscard]] bool beyond() const { return excess > 0.0; }
 };
 
 /// Of the points, which are at least one, the one most beyond its tolerance.
 [[nodiscard]] FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
                                           const Tolerance& tolerance);
 
-/// The point most beyond its tolerance from the chord between the first and the last of the points,
-/// or zero when there is none; from the first point when the chord is shorter than the distance
+/// The point most beyond its tolerance from the chord between the first and the last of the points;
+/// from the first point when the chord is shorter than the distance
 /// from it.
 [[nodiscard]] FarthestPoint farthest_from_chord(const PointsView& points,
                                                 const Tolerance& tolerance);

@@ -7,6 +7,7 @@ namespace quoin {
 void Points::resize(std::size_t count) {
   range.resize(count);
   bearing.resize(count);
+  inverse_range.resize(count);
   cosine.resize(count);
   sine.resize(count);
   x.resize(count);

@@ -52,8 +52,8 @@ inline double cosine_of_reduced(double z) {
 // No branch and no call inside, so that the loop becomes vector instructions.
 QUOIN_MULTIVERSION
 void fill(const double* __restrict range, const double* __restrict bearing, std::size_t count,
-          double* __restrict cosine, double* __restrict sine, double* __restrict x,
-          double* __restrict y) {
+          double* __restrict inverse_range, double* __restrict cosine, double* __restrict sine,
+          double* __restrict x, double* __restrict y) {
   for (std::size_t i = 0; i < count; ++i) {
     const double shifted = bearing[i] * quarters_per_radian + rounding;
     const double quarters = shifted - rounding;
@@ -71,6 +71,7 @@ void fill(const double* __restrict range, const double* __restrict bearing, std:
     s ^= (quadrant & 2U) << 62U;         // sign of the sine: quadrants 2 and 3
     c ^= ((quadrant + 1U) & 2U) << 62U;  // sign of the cosine: quadrants 1 and 2
 
+    inverse_range[i] = 1.0 / range[i];
     sine[i] = std::bit_cast<double>(s);
     cosine[i] = std::bit_cast<double>(c);
     x[i] = range[i] * cosine[i];
@@ -81,8 +82,8 @@ void fill(const double* __restrict range, const double* __restrict bearing, std:
 }  // namespace
 
 void compute_cartesian(Points& points) {
-  fill(points.range.data(), points.bearing.data(), points.size(), points.cosine.data(),
-       points.sine.data(), points.x.data(), points.y.data());
+  fill(points.range.data(), points.bearing.data(), points.size(), points.inverse_range.data(),
+       points.cosine.data(), points.sine.data(), points.x.data(), points.y.data());
 }
 
 }  // namespace quoin

@@ -10,8 +10,9 @@ namespace quoin {
 /// sign. A larger one is not a bearing.
 inline constexpr double largest_bearing = 1e6;
 
-/// Fills cosine, sine, x and y from range and bearing. Sine and cosine are exact to 2 units in the
-/// last place (to 3e-16 near their zeros), much faster than calling std::sin and std::cos in turn.
+/// Fills inverse_range, cosine, sine, x and y from range and bearing. Sine and cosine are exact to
+/// 2 units in the last place (to 3e-16 near their zeros), much faster than calling std::sin and
+/// std::cos in turn.
 void compute_cartesian(Points& points);
 
 }  // namespace quoin

@@ -20,6 +20,7 @@ inline Points points_from(const std::vector<double>& bearings, const std::vector
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     points.bearing[i] = bearings[i];
     points.range[i] = ranges[i];
+    points.inverse_range[i] = 1.0 / ranges[i];
     points.cosine[i] = std::cos(bearings[i]);
     points.sine[i] = std::sin(bearings[i]);
     points.x[i] = ranges[i] * points.cosine[i];

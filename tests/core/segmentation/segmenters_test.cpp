@@ -51,8 +51,13 @@ double worst_distance(const Points& points, const Segment& segment, const Tolera
   for (std::size_t i = segment.begin; i < segment.end; ++i) moments.add(points.x[i], points.y[i]);
   const auto fit = orthogonal_fit(moments);
   if (!fit) return 0.0;
-  const PointsView view = points.view().subview(segment.begin, segment.end);
-  return std::sqrt(farthest_from(fit->line, view, tolerance).excess);
+  double worst = 0.0;
+  for (std::size_t i = segment.begin; i < segment.end; ++i) {
+    const double distance = fit->line.distance(points.x[i], points.y[i]);
+    const double allowed = tolerance.squared(points, i, fit->line.normal_x, fit->line.normal_y);
+    worst = std::max(worst, std::abs(distance) / std::sqrt(allowed));
+  }
+  return worst;
 }
 
 TEST_P(EverySegmenter, GivesStraightPiecesInOrder) {
