@@ -137,10 +137,14 @@ TEST(SerialPort, TellsThatItIsNone) {
 class WithoutRights {
  public:
   WithoutRights() {
-    if (::geteuid() == 0) EXPECT_EQ(::seteuid(65534), 0);
+    if (::geteuid() == 0) {
+      EXPECT_EQ(::seteuid(65534), 0);
+    }
   }
   ~WithoutRights() {
-    if (::getuid() == 0) EXPECT_EQ(::seteuid(0), 0);
+    if (::getuid() == 0) {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
   }
 };
 
