@@ -64,8 +64,7 @@ void FileStream::write(std::span<const std::uint8_t> bytes, Deadline deadline) {
       throw system_error(name_, "write", errno);
     }
     if (!bytes.empty() && (!wait_for(descriptor(), POLLOUT, deadline) || Clock::now() > deadline)) {
-      throw TransportError(TransportError::Kind::timed_out,
-                           name_ + ": takes no bytes; is the other end stuck?");
+      throw TransportError(TransportError::Kind::timed_out, name_ + ": takes no bytes");
     }
   }
 }

@@ -32,8 +32,7 @@ Addresses addresses_of(const Endpoint& endpoint, int type) {
   if (status == EAI_SYSTEM) throw system_error(to_text(endpoint), "look up the host", errno);
   if (status != 0) {
     throw TransportError(TransportError::Kind::unknown_host,
-                         to_text(endpoint) + ": unknown host: " + ::gai_strerror(status) +
-                             "; check the spelling or write the address");
+                         to_text(endpoint) + ": unknown host: " + ::gai_strerror(status));
   }
   return {found, &::freeaddrinfo};
 }

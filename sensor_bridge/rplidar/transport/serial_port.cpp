@@ -42,8 +42,7 @@ class SerialPort final : public FileStream {
     if (holder.process != ::getpid())
       holders += (holders.empty() ? " by " : ", ") + to_text(holder);
   }
-  throw TransportError(TransportError::Kind::busy,
-                       path + ": in use" + holders + "; end the other program that uses it");
+  throw TransportError(TransportError::Kind::busy, path + ": in use" + holders);
 }
 
 /// Its other end is a program that holds both ends open: there is never a last one to close it.

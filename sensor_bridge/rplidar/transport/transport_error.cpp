@@ -46,41 +46,47 @@ Kind kind_of(int error) {
   }
 }
 
-const char* way_out(Kind kind) {
+std::string joined(const std::string& problem, const std::string& advice) {
+  return advice.empty() ? problem : problem + "; " + advice;
+}
+
+}  // namespace
+
+std::string way_out(TransportError::Kind kind) {
   switch (kind) {
     case Kind::no_such_port:
-      return "; is the cable plugged in? quoin lidar list shows the ports that are there";
+      return "is the cable plugged in? quoin lidar list shows the ports that are there";
     case Kind::no_permission:
-      return "; add the user to the port's group (sudo usermod -aG dialout $USER, then log in "
+      return "add the user to the port's group (sudo usermod -aG dialout $USER, then log in "
              "again) or install the udev rule";
     case Kind::busy:
-      return "; end the other program that uses it";
+      return "end the other program that uses it";
     case Kind::not_a_serial_port:
-      return "; it is not a serial port: name one such as /dev/ttyUSB0";
+      return "name a serial port such as /dev/ttyUSB0";
     case Kind::unsupported_baud_rate:
-      return "; the adapter cannot do this baud rate";
+      return "choose another baud rate or another adapter";
     case Kind::unknown_host:
-      return "; check the spelling or write the address";
+      return "check the spelling or write the address";
     case Kind::refused:
-      return "; nobody listens there: check the port number and the device's power";
+      return "check the port number and the device's power";
     case Kind::unreachable:
-      return "; check the address, the network cable and this computer's own address";
+      return "check the address, the network cable and this computer's own address";
     case Kind::timed_out:
-      return "; check the address, the cable and the device's power";
+      return "check the address, the cable and the device's power";
     case Kind::closed:
-      return "; it was unplugged or closed by the other end";
+      return "plug it in again; check the cable and the power";
     case Kind::failed:
       break;
   }
   return "";
 }
 
-}  // namespace
+TransportError::TransportError(Kind kind, const std::string& problem)
+    : std::runtime_error(joined(problem, way_out(kind))), kind_(kind), problem_(problem) {}
 
 TransportError system_error(const std::string& endpoint, const std::string& operation, int error) {
-  const Kind kind = kind_of(error);
-  return {kind, endpoint + ": cannot " + operation + ": " + std::system_category().message(error) +
-                    way_out(kind)};
+  return {kind_of(error),
+          endpoint + ": cannot " + operation + ": " + std::system_category().message(error)};
 }
 
 }  // namespace quoin::sensor_bridge::rplidar

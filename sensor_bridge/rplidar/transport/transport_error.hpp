@@ -7,8 +7,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// Why bytes cannot be exchanged with an endpoint. what() names the endpoint, the system's reason
-/// and the way out.
+/// Why bytes cannot be exchanged with an endpoint. what() is the problem and the way out.
 class TransportError : public std::runtime_error {
  public:
   enum class Kind {
@@ -25,13 +24,19 @@ class TransportError : public std::runtime_error {
     failed,        ///< anything else
   };
 
-  TransportError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  /// `problem` names the endpoint and what is wrong with it.
+  TransportError(Kind kind, const std::string& problem);
 
   [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
   Kind kind_;
+  std::string problem_;
 };
+
+/// What the user can do; empty when there is nothing to advise.
+[[nodiscard]] std::string way_out(TransportError::Kind kind);
 
 /// What an operation on `endpoint` ended with; `error` is the value of errno, whose text is told.
 [[nodiscard]] TransportError system_error(const std::string& endpoint, const std::string& operation,
