@@ -46,6 +46,8 @@ class DescriptorScanner {
   [[nodiscard]] std::uint64_t skipped_bytes() const { return skipped_bytes_; }
 
  private:
+  void drop_first();
+
   std::array<std::uint8_t, Descriptor::bytes> bytes_{};
   std::size_t size_ = 0;
   std::uint64_t skipped_bytes_ = 0;

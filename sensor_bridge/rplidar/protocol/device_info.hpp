@@ -59,7 +59,7 @@ struct SampleTimes {
 [[nodiscard]] std::string firmware_text(const DeviceInfo& info);
 /// 32 hexadecimal digits, upper case.
 [[nodiscard]] std::string serial_number_text(const DeviceInfo& info);
-/// "S1M1", or "unknown (0x5F)" for a model of none of the vendor's series.
+/// "S1M1", or "unknown (0x0F)" for a model of none of the vendor's series.
 [[nodiscard]] std::string model_text(const DeviceInfo& info);
 
 /// What follows from the model number.

@@ -36,6 +36,7 @@ class Request {
  public:
   static constexpr std::size_t largest_payload = 255;
 
+  /// Throws std::invalid_argument when the payload is longer than that, or the command has none.
   explicit Request(Command command, std::span<const std::uint8_t> payload = {});
 
   [[nodiscard]] Command command() const { return static_cast<Command>(bytes_[1]); }
@@ -54,17 +55,20 @@ class Request {
 [[nodiscard]] Request configuration_request(ConfigurationKey key,
                                             std::optional<std::uint16_t> mode = std::nullopt);
 
-/// Finds requests in what a client sends, as a device does: bytes that cannot be one, and requests
-/// with a wrong checksum, are passed over.
+/// Finds requests in what a client sends, as a device does: bytes that cannot be one, unknown
+/// commands and requests with a wrong checksum are passed over.
 class RequestScanner {
  public:
   /// Takes bytes from the front of `bytes` until a request is complete; nothing when all were
-  /// taken.
+  /// taken. Call it until then, also when no bytes are left: damage may have hidden two requests.
   [[nodiscard]] std::optional<Request> next(std::span<const std::uint8_t>& bytes);
 
   [[nodiscard]] std::uint64_t checksum_errors() const { return checksum_errors_; }
 
  private:
+  [[nodiscard]] std::optional<Request> take_request();
+  void drop(std::size_t count);
+
   std::array<std::uint8_t, 4 + Request::largest_payload> bytes_{};
   std::size_t size_ = 0;
   std::uint64_t checksum_errors_ = 0;

@@ -24,13 +24,20 @@ class SampleEncoder {
   explicit SampleEncoder(SampleFormat format);
 
   /// Appends one frame of the next layout_of(format).samples samples, all of them one sample period
-  /// apart. `timestamp_us` is what formats with a time of their own carry.
+  /// apart. The sample behind them may be given as well: the last distance of an ultra capsule
+  /// leans on it, and is sent as no return without it. `timestamp_us` is what formats with a time
+  /// of their own carry. Throws std::invalid_argument when the number of samples is another.
   void encode(std::span<const Sample> samples, std::uint64_t timestamp_us,
               std::vector<std::uint8_t>& bytes);
 
  private:
+  void encode_hq(std::span<const Sample> samples, std::uint64_t timestamp_us,
+                 std::span<std::uint8_t> frame);
+  [[nodiscard]] bool starts_revolution(std::uint32_t angle_q16);
+
   SampleFormat format_;
-  bool first_ = true;  // marks the start of the stream
+  bool first_ = true;  ///< marks the start of the stream
+  std::uint32_t last_angle_q16_ = 0;
 };
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace quoin::sensor_bridge::rplidar {
@@ -30,7 +30,25 @@ struct FrameLayout {
   std::size_t samples;
 };
 
-[[nodiscard]] FrameLayout layout_of(SampleFormat format);
+[[nodiscard]] constexpr FrameLayout layout_of(SampleFormat format) {
+  switch (format) {
+    case SampleFormat::standard:
+      return {5, 1};
+    case SampleFormat::express:
+      return {84, 32};
+    case SampleFormat::hq:
+      return {781, 96};
+    case SampleFormat::ultra:
+      return {132, 96};
+    case SampleFormat::dense:
+      return {84, 40};
+    case SampleFormat::ultra_dense:
+      return {172, 64};
+  }
+  return {1, 0};
+}
+
+inline constexpr std::size_t largest_frame_bytes = layout_of(SampleFormat::hq).bytes;
 
 /// The format of this type byte, or nothing when it is none.
 [[nodiscard]] std::optional<SampleFormat> sample_format(std::uint8_t type);
