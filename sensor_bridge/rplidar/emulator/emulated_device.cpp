@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "sensor_bridge/rplidar/emulator/seconds.hpp"
-#include "sensor_bridge/rplidar/protocol/descriptor.hpp"
+#include "sensor_bridge/rplidar/protocol/sample_block.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -97,7 +97,8 @@ std::optional<EmulatedDevice::TimePoint> EmulatedDevice::next_event() const {
     const FrameLayout layout = layout_of(identity_.modes[mode_].format);
     const double on_line =
         10.0 * static_cast<double>(layout.bytes) / static_cast<double>(settings_.baud_rate);
-    consider(sample_time(samples_ - frame_.size() + layout.samples - 1) + duration_of(on_line));
+    consider(sample_time(samples_ - frame_.size() + samples_for_frame() - 1) +
+             duration_of(on_line));
   }
   return next;
 }
@@ -213,10 +214,10 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
     }
     case Command::health: {
       const bool error = state_ == DeviceState::protection_stop;
-      return answer(AnswerType::health,
-                    encode(error ? DeviceHealth{Health::error, error_of_protection_stop}
-                                 : DeviceHealth{}),
-                    now);
+      return answer(
+          AnswerType::health,
+          encode(error ? DeviceHealth{Health::error, error_of_protection_stop} : DeviceHealth{}),
+          now);
     }
     case Command::sample_rate: {
       const bool zero = misbehaves(FaultKind::zero_sample_time, now);
@@ -312,8 +313,7 @@ void EmulatedDevice::drive_motor(TimePoint now) {
   const double speed = runs ? faults_.value(FaultKind::speed, now).value_or(speed_) : 0.0;
   const double ramp =
       faults_.value(FaultKind::slow_spin_up, now).value_or(settings_.spin_up_time);  // to 10 Hz
-  const double acceleration =
-      ramp > 0.0 ? 10.0 / ramp : std::numeric_limits<double>::infinity();
+  const double acceleration = ramp > 0.0 ? 10.0 / ramp : std::numeric_limits<double>::infinity();
   motor_.turn_at(speed, acceleration, now);
 }
 
@@ -325,9 +325,15 @@ void EmulatedDevice::begin_samples(TimePoint now) {
   enter(DeviceState::scanning, now);
 }
 
+// Ultra capsules wait for the sample behind them, on which they lean.
+std::size_t EmulatedDevice::samples_for_frame() const {
+  const SampleFormat format = identity_.modes[mode_].format;
+  return layout_of(format).samples + (format == SampleFormat::ultra ? 1 : 0);
+}
+
 void EmulatedDevice::sample_until(TimePoint now) {
   if (!encoder_) return;
-  const std::size_t frame_size = layout_of(identity_.modes[mode_].format).samples;
+  const std::size_t frame_size = samples_for_frame();
   for (TimePoint time = sample_time(samples_); time <= now; time = sample_time(samples_)) {
     const double turns = motor_.turns(time);
     const double fraction = turns - std::floor(turns);
@@ -345,20 +351,22 @@ void EmulatedDevice::sample_until(TimePoint now) {
 void EmulatedDevice::send_frame(TimePoint now) {
   bytes_.clear();
   const TimePoint begin = sample_time(samples_ - frame_.size());
-  encoder_->encode(frame_,
-                   static_cast<std::uint64_t>(
-                       std::chrono::duration_cast<std::chrono::microseconds>(begin - first_sample_)
-                           .count()),
-                   bytes_);
-  frame_.clear();
+  encoder_->encode(
+      frame_,
+      static_cast<std::uint64_t>(
+          std::chrono::duration_cast<std::chrono::microseconds>(begin - first_sample_).count()),
+      bytes_);
+  frame_.erase(frame_.begin(),
+               frame_.begin() +
+                   static_cast<std::ptrdiff_t>(layout_of(identity_.modes[mode_].format).samples));
   ++counts_.frames;
   const std::optional<double> share = faults_.value(FaultKind::wrong_checksums, now);
   if (share && damage_.uniform() < *share) {
     if (identity_.modes[mode_].format == SampleFormat::standard) {
       bytes_[1] &= 0xFE;  // has a check bit in place of a checksum
     } else {
-      bytes_[2 + damage_.index(bytes_.size() - 2)] ^= static_cast<std::uint8_t>(
-          1U << damage_.index(8));
+      bytes_[2 + damage_.index(bytes_.size() - 2)] ^=
+          static_cast<std::uint8_t>(1U << damage_.index(8));
     }
   }
   transmit(bytes_, now);

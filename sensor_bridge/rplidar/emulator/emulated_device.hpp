@@ -20,6 +20,7 @@
 #include "sensor_bridge/rplidar/emulator/motor.hpp"
 #include "sensor_bridge/rplidar/emulator/range_finder.hpp"
 #include "sensor_bridge/rplidar/emulator/transmitter.hpp"
+#include "sensor_bridge/rplidar/protocol/descriptor.hpp"
 #include "sensor_bridge/rplidar/protocol/request.hpp"
 #include "sensor_bridge/rplidar/protocol/sample_encoder.hpp"
 
@@ -90,6 +91,7 @@ class EmulatedDevice {
   void drive_motor(TimePoint now);
 
   void begin_samples(TimePoint now);
+  [[nodiscard]] std::size_t samples_for_frame() const;
   void sample_until(TimePoint now);
   void send_frame(TimePoint now);
   void announce(std::uint32_t length, bool repeated, std::uint8_t type, TimePoint now);

@@ -40,7 +40,8 @@ struct EmulatorStatus {
 /// An emulated device with its link, in real time. All but `run` may be called by any thread.
 class Emulator {
  public:
-  /// Told of each thing that happens, with the time [s] since the start; must not call the emulator.
+  /// Told of each thing that happens, with the time [s] since the start; must not call the
+  /// emulator.
   using Report = std::function<void(double, const std::string&)>;
 
   /// Makes the endpoint. World files are relative to `base_directory`. Throws std::exception when

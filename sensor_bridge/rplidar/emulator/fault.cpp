@@ -126,9 +126,9 @@ Fault parse_fault(std::string_view text) {
   Fault fault;
   // A '+' within a number such as 1e+3 belongs to it.
   if (const std::size_t plus = rest.rfind('+');
-      plus != std::string_view::npos && (plus == 0 || (rest[plus - 1] | 0x20) != 'e' ||
-                                         rest.substr(0, plus).find_first_of("=@") ==
-                                             std::string_view::npos)) {
+      plus != std::string_view::npos &&
+      (plus == 0 || (rest[plus - 1] | 0x20) != 'e' ||
+       rest.substr(0, plus).find_first_of("=@") == std::string_view::npos)) {
     fault.duration = parse_time(text, *take_after(rest, '+'));
   }
   if (const auto begin = take_after(rest, '@')) fault.begin = parse_time(text, *begin);

@@ -15,9 +15,8 @@ void FaultSchedule::add(const Fault& fault, TimePoint now) {
 }
 
 void FaultSchedule::end(FaultKind kind, TimePoint time) {
-  std::erase_if(entries_, [&](const Entry& entry) {
-    return entry.fault.kind == kind && entry.active(time);
-  });
+  std::erase_if(entries_,
+                [&](const Entry& entry) { return entry.fault.kind == kind && entry.active(time); });
 }
 
 const FaultSchedule::Entry* FaultSchedule::find(FaultKind kind, TimePoint time) const {

@@ -53,8 +53,7 @@ OwnedDescriptor bound_socket(int type, const SocketAddress& address) {
       (type == SOCK_STREAM &&
        ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0) ||
       ::bind(socket.get(), address.get(), address.size()) != 0) {
-    throw std::system_error(errno, std::generic_category(),
-                            "cannot listen on " + address.text());
+    throw std::system_error(errno, std::generic_category(), "cannot listen on " + address.text());
   }
   return socket;
 }

@@ -8,7 +8,8 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-Transmitter::Transmitter(std::int64_t baud_rate) : byte_time_(10.0 / static_cast<double>(baud_rate)) {
+Transmitter::Transmitter(std::int64_t baud_rate)
+    : byte_time_(10.0 / static_cast<double>(baud_rate)) {
   bytes_.reserve(2 * capacity);
 }
 

@@ -58,10 +58,9 @@ std::optional<UdpServer::TimePoint> UdpServer::next_write() const {
 }
 
 void UdpServer::send_datagram(std::size_t size) {
-  const ssize_t sent = client_.size() == 0
-                           ? 0
-                           : ::sendto(socket_.get(), waiting_.data(), size, MSG_NOSIGNAL,
-                                      client_.get(), client_.size());
+  const ssize_t sent = client_.size() == 0 ? 0
+                                           : ::sendto(socket_.get(), waiting_.data(), size,
+                                                      MSG_NOSIGNAL, client_.get(), client_.size());
   count(size, sent > 0 ? static_cast<std::size_t>(sent) : 0);
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(size));
 }
