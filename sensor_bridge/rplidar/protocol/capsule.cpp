@@ -17,10 +17,17 @@ std::uint32_t wrapped(std::int32_t angle_q16) {
   return static_cast<std::uint32_t>(angle_q16);
 }
 
+/// Few capsules span angle zero; the others need no look at each angle.
 template <std::size_t count>
 void fill_angles(CapsuleAngles angles, SampleBlock& block) {
+  const auto last = static_cast<std::int32_t>(count - 1);
+  for (std::int32_t k = 0; k <= last; ++k) {
+    block.angle_q16[static_cast<std::size_t>(k)] =
+        static_cast<std::uint32_t>(angles.start_q16 + k * angles.step_q16);
+  }
+  if (angles.start_q16 + last * angles.step_q16 < circle) return;
   for (std::size_t k = 0; k < count; ++k) {
-    block.angle_q16[k] = wrapped(angles.start_q16 + static_cast<std::int32_t>(k) * angles.step_q16);
+    block.angle_q16[k] = wrapped(static_cast<std::int32_t>(block.angle_q16[k]));
   }
 }
 
@@ -105,8 +112,10 @@ void decode_dense(const std::uint8_t* capsule, CapsuleAngles angles, SampleBlock
   for (std::size_t k = 0; k < count; ++k) {
     block.distance_q2[k] = std::uint32_t{load<std::uint16_t>(capsule + 4 + 2 * k)} << 2;
   }
+  for (std::size_t k = 0; k < count; ++k) {
+    block.quality[k] = load<std::uint16_t>(capsule + 4 + 2 * k) != 0 ? return_quality : 0;
+  }
   fill_angles<count>(angles, block);
-  fill_qualities<count>(block);
 }
 
 void decode_ultra_dense(const std::uint8_t* capsule, CapsuleAngles angles,

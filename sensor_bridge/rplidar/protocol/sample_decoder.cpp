@@ -45,7 +45,7 @@ bool checksum_is_right(const std::uint8_t* frame) {
     return padded_crc32({frame, content}) == load<std::uint32_t>(frame + content);
   } else {
     const unsigned sum = (frame[0] & 0xFu) | (frame[1] & 0xFu) << 4;
-    return xor_checksum({frame + capsule_sync_bytes, size - capsule_sync_bytes}) == sum;
+    return xor_checksum<size - capsule_sync_bytes>(frame + capsule_sync_bytes) == sum;
   }
 }
 
