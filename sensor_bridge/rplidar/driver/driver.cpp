@@ -84,6 +84,7 @@ void Driver::run(const Interruption& interruption) {
 
 void Driver::run_connection(const Interruption& interruption) {
   enter(DriverState::connecting);
+  attempt_begin_ = Clock::now();
   const TimeOuts& time_outs = settings_.time_outs;
   const Connection connection = find_device(open_, name_, baud_rates(), interruption, time_outs);
   known_baud_rate_ = connection.baud_rate;
@@ -218,7 +219,9 @@ void Driver::hand_over(const Revolution& revolution, const ScanMode& mode) {
 void Driver::wait_before_next_attempt(const Interruption& interruption) {
   enter(DriverState::waiting);
   ++attempts_;
-  wait_until(interruption, Clock::now() + pause_);
+  // Counted from the begin of the attempt, which takes its time where a port is there but silent.
+  wait_until(interruption, std::max(attempt_begin_ + pause_,
+                                    Clock::now() + settings_.time_outs.shortest_pause));
   pause_ = std::min(2 * pause_, settings_.time_outs.longest_pause);
 }
 

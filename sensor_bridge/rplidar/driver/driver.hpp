@@ -54,6 +54,7 @@ class Driver {
   bool connected_ = false;
   unsigned known_baud_rate_ = 0;  // at which the device was last found
   int attempts_ = 0;              // to connect, in vain
+  Deadline attempt_begin_{};
   int failures_ = 0;              // of scans, in a row
   int resets_ = 0;                // in a row
   Deadline last_reset_{};

@@ -21,6 +21,8 @@ struct DecoderCounts {
   std::uint64_t skipped_bytes = 0;    ///< passed over in search of a frame
   std::uint64_t implausible = 0;      ///< pairs of capsules whose angles cannot follow each other
   std::uint64_t restarts = 0;         ///< capsules that say that the stream began anew
+
+  friend bool operator==(const DecoderCounts&, const DecoderCounts&) = default;
 };
 
 /// Turns the bytes behind a descriptor into measurements; finds the frames again after any damage.
