@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "sensor_bridge/rplidar/transport/transport.hpp"
+
+namespace quoin::sensor_bridge::rplidar {
+
+/// Ends whatever the device does and lets its motor idle: tells it so until it is quiet, a few
+/// times at most. Takes less than 0.4 s, and fails without a word where nobody can be told any
+/// more.
+void stop_motor(Transport& transport) noexcept;
+
+/// An open transport to a device whose motor is stopped when this one's life ends, by whatever way.
+class MotorGuard {
+ public:
+  explicit MotorGuard(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
+  MotorGuard(MotorGuard&&) = default;
+  MotorGuard& operator=(MotorGuard&&) = delete;
+  ~MotorGuard() {
+    if (transport_ && armed_) stop_motor(*transport_);
+  }
+
+  /// Whether there is somebody at the other end.
+  void arm(bool armed) { armed_ = armed; }
+  [[nodiscard]] Transport& transport() const { return *transport_; }
+
+ private:
+  std::unique_ptr<Transport> transport_;
+  bool armed_ = false;
+};
+
+}  // namespace quoin::sensor_bridge::rplidar

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
+#include "sensor_bridge/rplidar/protocol/configuration.hpp"
+#include "sensor_bridge/rplidar/protocol/device_info.hpp"
+#include "sensor_bridge/rplidar/protocol/request.hpp"
+
+namespace quoin::sensor_bridge::rplidar {
+
+/// What the device knows of itself.
+struct DeviceIdentity {
+  DeviceInfo info;
+  std::vector<ScanMode> modes;  ///< a mode's id is its index
+  std::uint16_t typical_mode = 1;
+  std::uint16_t usual_speed = 600;  ///< [rev/min]
+  std::uint32_t baud_rate = 256000;
+  std::array<std::uint8_t, 12> network_address{};  ///< as the client set it
+};
+
+/// Slowest and fastest that an S1 turns [rev/min].
+inline constexpr std::uint16_t smallest_speed = 480;
+inline constexpr std::uint16_t largest_speed = 900;
+
+/// An S1 with firmware 1.28. Throws std::invalid_argument for a serial number that is none.
+[[nodiscard]] DeviceIdentity s1_identity(const EmulatorSettings& settings);
+
+/// The payload of the answer to get_configuration, or nothing when the device does not answer this.
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> configuration_answer(
+    const DeviceIdentity& identity, std::span<const std::uint8_t> request);
+
+/// Carries out set_configuration; the payload of the answer, or nothing as above.
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> set_configuration_answer(
+    DeviceIdentity& identity, std::span<const std::uint8_t> request);
+
+/// Such as "get_configuration 0x71 of mode 1".
+[[nodiscard]] std::string request_text(const Request& request);
+
+}  // namespace quoin::sensor_bridge::rplidar
