@@ -8,6 +8,8 @@
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "sensor_bridge/replay/parameters.hpp"
+#include "sensor_bridge/rplidar/emulator_service/parameters.hpp"
+#include "sensor_bridge/rplidar/parameters.hpp"
 #include "sensor_bridge/simulated/parameters.hpp"
 
 namespace quoin::deploy {
@@ -31,6 +33,8 @@ std::string_view message_name(MessageType type) {
 const std::vector<KindInfo>& kinds() {
   using sensor_bridge::ReplayParameters;
   using sensor_bridge::SimulatedParameters;
+  using sensor_bridge::rplidar::EmulatorParameters;
+  using sensor_bridge::rplidar::RplidarParameters;
   static const std::vector<KindInfo> all{
       {"simulated",
        "scans of a simulated sensor in a world, built in or of a file",
@@ -48,6 +52,22 @@ const std::vector<KindInfo>& kinds() {
        "sensor",
        {},
        describe_parameters<ReplayParameters>()},
+      {"rplidar",
+       "scans of an RPLIDAR on a serial port, TCP or UDP",
+       "quoin-rplidar",
+       MessageType::none,
+       MessageType::scan,
+       "sensor",
+       {},
+       describe_parameters<RplidarParameters>()},
+      {"rplidar_emulator",
+       "an RPLIDAR S1 without hardware, for a service of kind rplidar or any other client",
+       "quoin-rplidar-emulator-service",
+       MessageType::none,
+       MessageType::none,
+       "sensor",
+       {},
+       describe_parameters<EmulatorParameters>()},
       {"segmentation",
        "splits each scan into runs of points on one straight wall",
        "quoin-segmentation",

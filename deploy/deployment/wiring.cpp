@@ -57,6 +57,10 @@ std::string givers_of(MessageType type) {
 std::string mismatch(const DraftService& source, const DraftService& reader) {
   const MessageType given = source.kind->output;
   const MessageType wanted = reader.kind->input;
+  if (given == MessageType::none) {
+    return "'" + source.config.name + "' of kind " + source.kind->name +
+           " publishes nothing; name a service of kind " + givers_of(wanted);
+  }
   std::string text = "'" + source.config.name + "' gives " + std::string(message_name(given)) +
                      " but " + reader.kind->name + " reads " + std::string(message_name(wanted));
   const auto chain = kinds_between(given, wanted);

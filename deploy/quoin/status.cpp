@@ -96,6 +96,9 @@ void print(const DeploymentFigures& figures, const Heartbeats& heartbeats) {
     for (const std::string& mismatch : status.incompatible_qos()) {
       std::cout << name << ": incompatible QoS: " << mismatch << '\n';
     }
+    for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
+      std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
+    }
   }
 }
 
@@ -116,6 +119,11 @@ void print_json(const DeploymentFigures& figures, const Heartbeats& heartbeats) 
       object["matched_inputs"] = status.matched_inputs();
       object["matched_outputs"] = status.matched_outputs();
       object["incompatible_qos"] = status.incompatible_qos();
+      auto diagnostics = nlohmann::ordered_json::object();
+      for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
+        diagnostics[diagnostic.name()] = diagnostic.value();
+      }
+      object["diagnostics"] = diagnostics;
     }
     services[service.name] = object;
   }

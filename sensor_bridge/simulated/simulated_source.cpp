@@ -10,18 +10,12 @@
 #include "sensor_bridge/simulated/revolution_timer.hpp"
 #include "sensor_bridge/simulated/scanner_settings.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
+#include "services/runtime/clock.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
 using std::chrono::steady_clock;
-using std::chrono::system_clock;
-
-// [ns since the Unix epoch] by the wall clock as it is now.
-std::int64_t epoch_time(steady_clock::time_point time) {
-  const steady_clock::duration age = steady_clock::now() - time;
-  return std::chrono::nanoseconds(system_clock::now().time_since_epoch() - age).count();
-}
 
 void publish_scans(SimulatedScanner scanner, const SimulatedParameters& parameters,
                    runtime::Source& source) {
@@ -38,7 +32,7 @@ void publish_scans(SimulatedScanner scanner, const SimulatedParameters& paramete
     scan.time_offsets() = rays.time_offsets;
     scan.duration(rays.time_offsets.back());
     if (!source.wait_until(revolution.end)) return;
-    scan.header().stamp(epoch_time(revolution.begin));
+    scan.header().stamp(runtime::epoch_ns(revolution.begin));
     if (!source.publish(scan)) return;
   }
 }

@@ -14,4 +14,9 @@ namespace quoin::runtime {
       .count();
 }
 
+/// [ns since the Unix epoch] of a time of the steady clock, by the wall clock as it is now.
+[[nodiscard]] inline std::int64_t epoch_ns(std::chrono::steady_clock::time_point time) {
+  return now_ns() - std::chrono::nanoseconds(std::chrono::steady_clock::now() - time).count();
+}
+
 }  // namespace quoin::runtime

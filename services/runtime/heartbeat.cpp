@@ -76,6 +76,20 @@ void Heartbeat::set_method(const std::string& method) {
   status_.method(method);
 }
 
+void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
+  const std::lock_guard lock(mutex_);
+  for (msg::Diagnostic& diagnostic : status_.diagnostics()) {
+    if (diagnostic.name() == name) {
+      diagnostic.value(value);
+      return;
+    }
+  }
+  msg::Diagnostic diagnostic;
+  diagnostic.name(name);
+  diagnostic.value(value);
+  status_.diagnostics().push_back(diagnostic);
+}
+
 void Heartbeat::set_endpoint_report(std::function<void(msg::ServiceStatus&)> report) {
   const std::lock_guard lock(mutex_);
   endpoint_report_ = std::move(report);

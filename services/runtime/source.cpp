@@ -8,22 +8,18 @@
 
 #include "services/runtime/clock.hpp"
 #include "services/runtime/delivery.hpp"
-#include "services/runtime/service.hpp"
+#include "services/runtime/service_activity.hpp"
 
 namespace quoin::runtime {
 
 namespace {
 
-class PublishingSource final : public Source {
+class PublishingSource final : public ServiceActivity<Source> {
  public:
   PublishingSource(Service& service, Writer<msg::Scan>& writer)
-      : service_(service),
+      : ServiceActivity<Source>(service),
         writer_(writer),
         lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
-
-  [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time) override {
-    return service_.stop.wait_until(time);
-  }
 
   bool publish(msg::Scan& scan) override {
     if (service_.stop.requested()) return false;
@@ -46,13 +42,7 @@ class PublishingSource final : public Source {
     return !service_.stop.requested();
   }
 
-  void warn(const std::string& text) override {
-    spdlog::warn("{}", text);
-    service_.heartbeat.set_detail(text);
-  }
-
  private:
-  Service& service_;
   Writer<msg::Scan>& writer_;
   bool lossless_;
   std::uint64_t next_sequence_ = 0;
@@ -99,14 +89,7 @@ int run_source(int argc, char** argv, const std::string& kind, const SourceFacto
   return run_service(
       argc, argv, kind,
       [&](const deploy::Deployment& deployment, const deploy::ServiceConfig& config) {
-        try {
-          body = open(config, deployment.file.parent_path());
-        } catch (const std::exception& error) {
-          throw deploy::DeploymentError({deployment.file.string() + ":" +
-                                         std::to_string(config.position.line) + ":" +
-                                         std::to_string(config.position.column) + ": service '" +
-                                         config.name + "': " + error.what()});
-        }
+        body = open_body(open, deployment, config);
       },
       [&](Service& service) { return publish_all(service, body); });
 }

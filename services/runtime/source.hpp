@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <idl/Scan.h>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "deploy/deployment/deployment.hpp"
+#include "services/runtime/activity.hpp"
 
 namespace quoin::runtime {
 
@@ -21,21 +21,13 @@ class SourceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the body of a scan source works with. Numbers the scans, stamps the trace, accounts for
-/// them and ends in order on SIGTERM or SIGINT.
-class Source {
+/// What the body of a scan source works with. Numbers the scans, stamps the trace and accounts for
+/// them.
+class Source : public Activity {
  public:
-  virtual ~Source() = default;
-
-  /// Waits until `time`; false at once when the service is asked to stop.
-  [[nodiscard]] virtual bool wait_until(std::chrono::steady_clock::time_point time) = 0;
-
   /// Publishes a scan whose header.stamp and header.frame are set; the rest of the header is filled
   /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.
   virtual bool publish(msg::Scan& scan) = 0;
-
-  /// Shown in the status heartbeat and the log, such as "2 malformed lines skipped".
-  virtual void warn(const std::string& text) = 0;
 };
 
 /// Opens what the source reads from and returns the body that publishes. Exceptions from opening

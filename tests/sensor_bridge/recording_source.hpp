@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,18 @@ class RecordingSource : public runtime::Source {
     return !stopping();
   }
   void warn(const std::string& text) override { warnings.push_back(text); }
+  void settle(const std::string& text) override { notes.push_back(text); }
+  void set_diagnostic(const std::string& name, const std::string& value) override {
+    diagnostics[name] = value;
+  }
 
   std::size_t stop_after = 10000;  ///< published scans
   std::vector<std::chrono::steady_clock::time_point> deadlines;
   std::vector<msg::Scan> scans;
   std::vector<const float*> memory;  ///< of the ranges of the published messages
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;
+  std::map<std::string, std::string> diagnostics;
 };
 
 /// The configuration of a source with these parameters.

@@ -21,8 +21,8 @@ std::vector<std::string> names_of(const std::vector<MethodInfo>& methods) {
 TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
   for (const KindInfo& kind : kinds()) names.push_back(kind.name);
-  EXPECT_THAT(names, ElementsAre("simulated", "replay", "segmentation", "line_fitting",
-                                 "corner_estimation"));
+  EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator",
+                                 "segmentation", "line_fitting", "corner_estimation"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {
@@ -37,6 +37,9 @@ TEST(Kinds, FormAChainFromScansToCorners) {
   };
   check("simulated", MessageType::none, MessageType::scan, "quoin-simulated", "sensor");
   check("replay", MessageType::none, MessageType::scan, "quoin-replay", "sensor");
+  check("rplidar", MessageType::none, MessageType::scan, "quoin-rplidar", "sensor");
+  check("rplidar_emulator", MessageType::none, MessageType::none, "quoin-rplidar-emulator-service",
+        "sensor");
   check("segmentation", MessageType::scan, MessageType::segments, "quoin-segmentation", "feature");
   check("line_fitting", MessageType::segments, MessageType::lines, "quoin-line-fitting", "feature");
   check("corner_estimation", MessageType::lines, MessageType::corners, "quoin-corner-estimation",

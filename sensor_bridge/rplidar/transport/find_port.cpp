@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_bridge/rplidar/transport/find_port.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sensor_bridge/rplidar/transport/serial_ports.hpp"
+
+namespace quoin::sensor_bridge::rplidar {
+
+Endpoint find_endpoint(std::string_view text, const std::filesystem::path& root) {
+  if (text != "auto") return parse_endpoint(text);
+  const std::vector<SerialPortEntry> ports = list_serial_ports(root);
+  std::vector<SerialPortEntry> usual;
+  std::ranges::copy_if(ports, std::back_inserter(usual), [](const SerialPortEntry& port) {
+    return port.usb && is_usual_adapter(*port.usb);
+  });
+  if (usual.size() == 1) {
+    return parse_endpoint(usual[0].link.empty() ? usual[0].device : usual[0].link);
+  }
+  if (ports.empty()) {
+    throw EndpointError(
+        "no USB serial port is there; plug the device in, or name its serial_port, "
+        "tcp://host or udp://host");
+  }
+  std::string names;
+  for (const SerialPortEntry& port : ports) {
+    names += (names.empty() ? "" : ", ") + (port.link.empty() ? port.device : port.link);
+  }
+  throw EndpointError(std::string(usual.empty() ? "no USB serial adapter of the usual type is there"
+                                                : "several devices may be meant") +
+                      "; name the serial_port, one of: " + names);
+}
+
+}  // namespace quoin::sensor_bridge::rplidar
