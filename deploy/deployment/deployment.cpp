@@ -42,6 +42,7 @@ std::vector<const ServiceConfig*> Deployment::readers_of(std::string_view name) 
 std::string output_topic(const Deployment& deployment, const ServiceConfig& service) {
   const KindInfo* kind = find_kind(service.kind);
   if (kind == nullptr) throw std::invalid_argument("unknown kind '" + service.kind + "'");
+  if (kind->output == MessageType::none) return "";
   return deployment.name_space + "/" + service.name + "/" + std::string(message_name(kind->output));
 }
 

@@ -68,7 +68,8 @@ class DeploymentError : public std::runtime_error {
 [[nodiscard]] Deployment parse_deployment(const std::string& text,
                                           const std::filesystem::path& file);
 
-/// Topic names: <namespace>/<service>/<type in lower case>, and two shared by all services.
+/// Topic names: <namespace>/<service>/<type in lower case>, "" of a service that publishes nothing,
+/// and two shared by all services.
 [[nodiscard]] std::string output_topic(const Deployment& deployment, const ServiceConfig& service);
 [[nodiscard]] std::string status_topic(std::string_view name_space);
 [[nodiscard]] std::string control_request_topic(std::string_view name_space);

@@ -49,8 +49,9 @@ void print(const Deployment& deployment) {
     std::cout << "  " << service.name << ": " << service.kind;
     if (!service.method.empty()) std::cout << '/' << service.method;
     if (!service.input.empty()) std::cout << " reads " << service.input;
-    std::cout << ", publishes " << output_topic(deployment, service) << " (" << service.qos
-              << ")\n";
+    const std::string topic = output_topic(deployment, service);
+    std::cout << (topic.empty() ? ", publishes nothing\n"
+                                : ", publishes " + topic + " (" + service.qos + ")\n");
   }
 }
 

@@ -33,6 +33,7 @@ struct Command {
 [[nodiscard]] Command add_echo(CLI::App& app);
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
+[[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

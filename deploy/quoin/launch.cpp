@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/quoin/launch.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -20,6 +22,8 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment,
   const std::filesystem::path folder = program_folder();
   std::map<std::string, int> levels;
   std::vector<ProcessPlan> plans;
+  std::vector<std::size_t> behind;
+  int last_level = 0;
   for (const ServiceConfig& service : deployment.services) {
     ProcessPlan plan;
     plan.name = service.name;
@@ -33,12 +37,17 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment,
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }
-    plan.source = service.input.empty();
-    plan.level = plan.source ? 0 : levels.at(service.input) + 1;
+    const bool publishes = find_kind(service.kind)->output != MessageType::none;
+    plan.source = service.input.empty() && publishes;
+    plan.level = service.input.empty() ? 0 : levels.at(service.input) + 1;
     plan.restart = service.restart == RestartPolicy::always;
     levels[service.name] = plan.level;
+    if (!publishes) behind.push_back(plans.size());
+    last_level = std::max(last_level, plan.level);
     plans.push_back(std::move(plan));
   }
+  // What publishes nothing is there for the others, and stops when they have.
+  for (const std::size_t index : behind) plans[index].level = last_level + 1;
   return plans;
 }
 

@@ -26,18 +26,6 @@ std::string number(double value, int digits) {
   return text;
 }
 
-std::string_view health_name(Health health) {
-  switch (health) {
-    case Health::good:
-      return "good";
-    case Health::warning:
-      return "warning";
-    case Health::error:
-      return "protection stop";
-  }
-  return "unknown";
-}
-
 class Bridge final : public DriverListener {
  public:
   Bridge(const RplidarParameters& parameters, const Endpoint& endpoint, runtime::Source& source)
@@ -71,7 +59,7 @@ class Bridge final : public DriverListener {
     tell("Firmware Version", firmware_text(facts.info));
     tell("Hardware Version", std::to_string(facts.info.hardware));
     tell("Device ID", serial_number_text(facts.info));
-    tell("Health", std::string(health_name(facts.health.status)));
+    tell("Health", std::string(name_of(facts.health.status)));
     tell_mode(plan.mode);
     device_ = "RPLIDAR " + model_text(facts.info) + " " + serial_number_text(facts.info) + " at " +
               facts.endpoint;

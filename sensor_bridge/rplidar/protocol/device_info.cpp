@@ -108,4 +108,16 @@ ModelTraits traits_of(const DeviceInfo& info) {
   return traits;
 }
 
+std::string_view name_of(Health health) {
+  switch (health) {
+    case Health::good:
+      return "good";
+    case Health::warning:
+      return "warning";
+    case Health::error:
+      return "protection stop";
+  }
+  return "unknown";
+}
+
 }  // namespace quoin::sensor_bridge::rplidar

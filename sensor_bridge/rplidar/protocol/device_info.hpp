@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace quoin::sensor_bridge::rplidar {
 
@@ -25,6 +26,9 @@ struct DeviceInfo {
 };
 
 enum class Health : std::uint8_t { good = 0, warning = 1, error = 2 };
+
+/// "good", "warning", "protection stop".
+[[nodiscard]] std::string_view name_of(Health health);
 
 /// Answer to Command::health.
 struct DeviceHealth {
