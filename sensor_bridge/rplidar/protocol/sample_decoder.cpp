@@ -133,8 +133,7 @@ bool SampleDecoder::next_frame(std::span<const std::uint8_t>& bytes, SampleBlock
   while (!bytes.empty()) {
     const std::size_t judged = frame_bytes + (in_step_ ? 0 : confirming_sync_bytes(format));
     if (held_size_ > 0) {
-      // One byte at first: it may show that no frame begins here.
-      hold(bytes, held_size_ == 1 ? 1 : std::min(bytes.size(), judged - held_size_));
+      hold(bytes, std::min(bytes.size(), judged - held_size_));
       const std::span<const std::uint8_t> held = std::span(held_).first(held_size_);
       if (!may_begin<format>(held)) {
         drop_false_begin<format>();

@@ -125,6 +125,18 @@ TEST(GoldenFrames, UltraCapsules) {
   EXPECT_EQ(samples[94].angle_q16, degrees(20) + 94 * 8192 + 382678);
 }
 
+TEST(GoldenFrames, UltraCapsulesWithLessThanNothing) {
+  // 50 = 0x032 | -100 = 0x39C << 12: 50 mm less 100. Checksum: 85 ^ 32 ^ C0 ^ 39 = 4E.
+  const Bytes first = hex("AE 54 00 85 32 C0 39 00") + hex("00 00 00 00", 31);
+  // 32 degrees: 00 ^ 08.
+  const Bytes second = hex("A8 50 00 08") + hex("00 00 00 00", 32);
+  const DecodedSamples samples = decode(SampleFormat::ultra, first + second);
+  ASSERT_EQ(samples.size(), 96u);
+  EXPECT_EQ(samples[0].distance_q2, 200u);
+  EXPECT_EQ(samples[1].distance_q2, 0u);
+  EXPECT_EQ(samples[1].quality, 0u);
+}
+
 TEST(GoldenFrames, UltraDenseCapsules) {
   // Time 0x01020304, status 0, 30 degrees = 1920/64 = 0x0780, first of its stream. Words of 20
   // bits: 557D0: quality 55, 0x7D0 * 2 = 4000.     544F9: quality 2A << 1, 0x4F8 * 3 + 8184 =

@@ -106,6 +106,19 @@ TEST(SampleEncoder, SendsNoReturnForWhatDoesNotFit) {
   EXPECT_EQ(through(SampleFormat::hq, 0xFFFFFFFF), 0xFFFFFFFFu);
 }
 
+TEST(SampleEncoder, LeansOnTheNextUltraPointWhereOneIsMissing) {
+  std::vector<Sample> samples(2 * 96, Sample{0, 12000, 0});
+  samples[3].distance_q2 = 0;
+  const DecodedSamples received = decode(SampleFormat::ultra, encode(SampleFormat::ultra, samples));
+  ASSERT_EQ(received.size(), 96u);
+  EXPECT_EQ(received[1].distance_q2, 12000u);
+  // A distance of 3 m is out of reach from the missing one behind it.
+  EXPECT_EQ(received[2].distance_q2, 0u);
+  EXPECT_EQ(received[3].distance_q2, 0u);
+  EXPECT_EQ(received[4].distance_q2, 12000u);
+  EXPECT_EQ(received[5].distance_q2, 12000u);
+}
+
 TEST(SampleEncoder, LacksTheLastUltraPointWithoutTheOneBehind) {
   SampleEncoder encoder(SampleFormat::ultra);
   const std::vector<Sample> samples(96, Sample{0, 4000, 0});

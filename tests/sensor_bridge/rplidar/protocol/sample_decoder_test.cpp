@@ -135,6 +135,34 @@ TEST(SampleDecoder, TakesStartAnglesBeyondTheCircle) {
       decode(SampleFormat::dense, dense_capsule(365, true) + dense_capsule(9));
   ASSERT_EQ(samples.size(), 40u);
   EXPECT_EQ(samples[0].angle_q16, 5u << 16);
+  EXPECT_EQ(decode(SampleFormat::dense, dense_capsule(1, true) + dense_capsule(365)).size(), 40u);
+}
+
+TEST(SampleDecoder, SmoothsUltraDenseCapsulesOnTheFinestScaleOnly) {
+  std::vector<Sample> samples(2 * 64, Sample{0, 8176, 100});
+  samples[1].distance_q2 = 8184;  // the first step of the second scale
+  const DecodedSamples decoded =
+      decode(SampleFormat::ultra_dense, encode(SampleFormat::ultra_dense, samples));
+  ASSERT_EQ(decoded.size(), 64u);
+  EXPECT_EQ(decoded[1].distance_q2, 8184u);
+  EXPECT_EQ(decoded[2].distance_q2, 8180u);
+}
+
+TEST(SampleDecoder, SmoothsAcrossUltraDenseCapsulesButNotAcrossGaps) {
+  // 1000 mm everywhere, then 1002 mm: the first point behind is the mean.
+  std::vector<Sample> samples(4 * 64, Sample{0, 4000, 100});
+  std::fill(samples.begin() + 128, samples.end(), Sample{0, 4008, 100});
+  Bytes bytes = encode(SampleFormat::ultra_dense, samples);
+  DecodedSamples decoded = decode(SampleFormat::ultra_dense, bytes);
+  ASSERT_EQ(decoded.size(), 3u * 64u);
+  EXPECT_EQ(decoded[127].distance_q2, 4000u);
+  EXPECT_EQ(decoded[128].distance_q2, 4004u);
+  // Without the capsule in front of the step.
+  bytes = encode(SampleFormat::ultra_dense, std::span(samples).subspan(0, 128)) + hex("00") +
+          std::span(bytes).subspan(2 * 170);
+  decoded = decode(SampleFormat::ultra_dense, bytes);
+  ASSERT_EQ(decoded.size(), 2u * 64u);
+  EXPECT_EQ(decoded[64], (DecodedSample{0, 4008, 100, true}));
 }
 
 // 0x5AA5 mm: each distance looks like the begin of a capsule.
