@@ -63,14 +63,6 @@ constexpr std::size_t confirming_sync_bytes(SampleFormat format) {
   return format == SampleFormat::hq ? 0 : capsule_sync_bytes;
 }
 
-/// Whether this, which begins as a frame, is one; with what follows it, if that is there.
-template <SampleFormat format>
-bool is_frame(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t size = layout_of(format).bytes;
-  return checksum_is_right<format>(bytes.data()) &&
-         (bytes.size() == size || may_begin<format>(bytes.subspan(size)));
-}
-
 /// Whether the byte at this place of a row of nodes can be there.
 bool fits_nodes(const std::uint8_t* nodes, std::size_t place) {
   const std::uint8_t byte = nodes[place];
@@ -159,7 +151,6 @@ bool SampleDecoder::next_frame(std::span<const std::uint8_t>& bytes, SampleBlock
       bytes = bytes.subspan(frame_bytes);
       if (accept<format>(frame, block)) return true;
     } else {
-      if (in_step_) ++counts_.checksum_errors;
       skip(1);
       bytes = bytes.subspan(1);
     }
@@ -167,11 +158,21 @@ bool SampleDecoder::next_frame(std::span<const std::uint8_t>& bytes, SampleBlock
   return false;
 }
 
+/// Whether this, which begins as a frame, is one; with what follows it, if that is there.
+template <SampleFormat format>
+bool SampleDecoder::is_frame(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t size = layout_of(format).bytes;
+  if (checksum_is_right<format>(bytes.data())) {
+    return bytes.size() == size || may_begin<format>(bytes.subspan(size));
+  }
+  if (in_step_) ++counts_.checksum_errors;
+  return false;
+}
+
 /// Goes on to the next place in the held bytes at which a frame may begin: a good one may begin
 /// inside what was no frame.
 template <SampleFormat format>
 void SampleDecoder::drop_false_begin() {
-  if (in_step_ && held_size_ >= layout_of(format).bytes) ++counts_.checksum_errors;
   const std::size_t offset =
       1 + begin_of_frame<format>(std::span(held_).first(held_size_).subspan(1));
   skip(offset);

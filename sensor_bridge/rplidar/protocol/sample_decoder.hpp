@@ -49,6 +49,8 @@ class SampleDecoder {
   template <SampleFormat format>
   [[nodiscard]] bool next_frame(std::span<const std::uint8_t>& bytes, SampleBlock& block);
   template <SampleFormat format>
+  [[nodiscard]] bool is_frame(std::span<const std::uint8_t> bytes);
+  template <SampleFormat format>
   void drop_false_begin();
   template <SampleFormat format>
   [[nodiscard]] bool accept(const std::uint8_t* frame, SampleBlock& block);

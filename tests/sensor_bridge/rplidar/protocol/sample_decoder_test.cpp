@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/rplidar/protocol/sample_decoder.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -68,6 +71,16 @@ TEST(SampleDecoder, GivesTheSameSamplesHoweverTheBytesArrive) {
       EXPECT_EQ(pieces.counts(), whole.counts()) << format_name(format);
     }
   }
+}
+
+TEST(SampleDecoder, CountsTheSameWhenAFalseBeginComesAlone) {
+  const Bytes good = dense_capsule(0, true, 100) + dense_capsule(4, false, 200);
+  const Bytes bytes = good + hex("A0") + dense_capsule(8, false, 300) + dense_capsule(12);
+  SampleDecoder decoder(SampleFormat::dense, sample_period);
+  std::size_t size = good.size() + 1;
+  const DecodedSamples samples = decode(decoder, bytes, [&] { return std::exchange(size, 1000); });
+  EXPECT_EQ(samples.size(), 80u);
+  EXPECT_EQ(decoder.counts(), (DecoderCounts{4, 80, 0, 1, 0, 0}));
 }
 
 TEST(SampleDecoder, HandsOutEachNodeOnItsArrival) {
