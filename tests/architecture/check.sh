@@ -23,6 +23,9 @@ dds='fastdds|fastrtps|fastcdr|.*PubSubTypes\.h'
 deny core "$dds|idl/|yaml-cpp|fstream|iostream|spdlog|services/|deploy/|sensor_bridge/" \
   "core/ knows no DDS, no YAML, no files and nobody else"
 deny sensor_bridge "$dds|spdlog" "sensor_bridge/ reaches DDS through the service kit only"
+deny sensor_bridge/rplidar/protocol '(core|idl|services|deploy|sensor_bridge|sys)/|iostream|fstream|unistd' \
+  "the RPLIDAR protocol knows nobody and does no input or output" \
+  'sensor_bridge/rplidar/protocol/[a-z_]+\.hpp"$'
 deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
 deny deploy 'core/(segmentation|fitting|corners)/' "deploy/ reaches methods through the method lists" \
   'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?)\.hpp'

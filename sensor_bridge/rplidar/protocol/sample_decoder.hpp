@@ -25,11 +25,14 @@ struct DecoderCounts {
   friend bool operator==(const DecoderCounts&, const DecoderCounts&) = default;
 };
 
-/// Turns the bytes behind a descriptor into measurements; finds the frames again after any damage.
-/// No input and no output of its own, and no memory but its members.
+/// Turns the bytes behind a descriptor into measurements; finds the frames again after any damage:
+/// what it takes for a frame and is none hides no other one. Capsules are read with the one behind
+/// them, which tells where they end, and never across a gap. No input and no output of its own, and
+/// no memory but its members.
 class SampleDecoder {
  public:
   /// `sample_period` [s] bounds how far two capsules may be apart; 0 when unknown.
+  /// The first bytes are taken on trust, as they follow the descriptor.
   explicit SampleDecoder(SampleFormat format, double sample_period = 0.0);
 
   /// Takes bytes from the front of `bytes` until a block is complete: true, and the rest of `bytes`
@@ -46,20 +49,24 @@ class SampleDecoder {
   template <SampleFormat format>
   [[nodiscard]] bool next_frame(std::span<const std::uint8_t>& bytes, SampleBlock& block);
   template <SampleFormat format>
+  [[nodiscard]] bool is_frame(std::span<const std::uint8_t> bytes);
+  template <SampleFormat format>
+  void drop_false_begin();
+  template <SampleFormat format>
   [[nodiscard]] bool accept(const std::uint8_t* frame, SampleBlock& block);
   void skip(std::size_t count);
   void hold(std::span<const std::uint8_t>& bytes, std::size_t count);
-  template <SampleFormat format>
-  void drop_held();
+  void release(std::size_t count);
   void hand_out(SampleBlock& block, std::size_t age);
 
   SampleFormat format_;
   std::uint32_t largest_difference_q6_;  ///< between the start angles of two capsules
   bool in_step_ = true;                  ///< a frame is expected to begin where the last one ended
-  bool after_gap_ = true;
+  bool after_gap_ = true;                ///< of the next block
   bool has_previous_ = false;
-  std::uint32_t last_distance_q2_ = 0;
+  std::uint32_t last_distance_q2_ = 0;  ///< for the smoothing of ultra-dense capsules
   DecoderCounts counts_;
+  /// The last capsule, which waits for the next one.
   std::array<std::uint8_t, layout_of(SampleFormat::ultra_dense).bytes> previous_{};
   std::array<std::uint8_t, largest_frame_bytes> held_{};  ///< what may be the begin of a frame
   std::size_t held_size_ = 0;

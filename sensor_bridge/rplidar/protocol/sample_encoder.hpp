@@ -18,7 +18,9 @@ struct Sample {
 };
 
 /// Lays measurements out as a device does: the other end of SampleDecoder. What a format cannot
-/// hold (longer distances, finer steps) is rounded or sent as no return.
+/// hold (longer distances, finer steps) is rounded or sent as no return. Express capsules keep
+/// single points that lag behind. Readers of ultra capsules correct each angle for a laser 24 mm
+/// beside the axis: what is sent with an angle is read at it when it is far.
 class SampleEncoder {
  public:
   explicit SampleEncoder(SampleFormat format);
