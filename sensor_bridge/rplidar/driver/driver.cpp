@@ -66,8 +66,10 @@ void Driver::run(const Interruption& interruption) {
     while (true) {
       try {
         run_connection(interruption);
-      } catch (const SettingsError&) {
-        throw;
+      } catch (const SettingsError& error) {
+        // Answers have no checksum: a damaged one shall not end the run.
+        if (++settings_errors_ > 1) throw;
+        recover_from(error.diagnosis());
       } catch (const DeviceError& error) {
         recover_from(error.diagnosis());
       } catch (const TransportError& error) {
@@ -96,6 +98,7 @@ void Driver::run_connection(const Interruption& interruption) {
   facts.health = health;
   const ScanPlan plan = plan_scan(facts, settings_.scan_mode, settings_.scan_frequency);
   connected_ = true;
+  settings_errors_ = 0;
   ++counts_.connections;
   listener_.connected(facts, plan);
   // Ever stronger means, until there are measurements for a while: start the scan anew, connect
@@ -220,8 +223,8 @@ void Driver::wait_before_next_attempt(const Interruption& interruption) {
   enter(DriverState::waiting);
   ++attempts_;
   // Counted from the begin of the attempt, which takes its time where a port is there but silent.
-  wait_until(interruption, std::max(attempt_begin_ + pause_,
-                                    Clock::now() + settings_.time_outs.shortest_pause));
+  wait_until(interruption,
+             std::max(attempt_begin_ + pause_, Clock::now() + settings_.time_outs.shortest_pause));
   pause_ = std::min(2 * pause_, settings_.time_outs.longest_pause);
 }
 

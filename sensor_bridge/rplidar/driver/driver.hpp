@@ -19,7 +19,8 @@ class Driver {
   Driver(DriverSettings settings, DriverListener& listener, Opener open = {});
 
   /// Returns when interrupted. The motor is stopped by whatever way it ends. Throws SettingsError
-  /// when the device has no such scan mode or speed, and what the listener throws.
+  /// when the device says twice that it has no such scan mode or speed, and what the listener
+  /// throws.
   void run(const Interruption& interruption);
 
   /// For the thread that runs it, as in calls of the listener.
@@ -55,8 +56,9 @@ class Driver {
   unsigned known_baud_rate_ = 0;  // at which the device was last found
   int attempts_ = 0;              // to connect, in vain
   Deadline attempt_begin_{};
-  int failures_ = 0;              // of scans, in a row
-  int resets_ = 0;                // in a row
+  int settings_errors_ = 0;  // in a row
+  int failures_ = 0;         // of scans, in a row
+  int resets_ = 0;           // in a row
   Deadline last_reset_{};
   TimeOuts::Time pause_;
 };

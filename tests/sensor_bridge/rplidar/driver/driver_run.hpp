@@ -60,10 +60,13 @@ class DriverRun : private DriverListener {
       : driver_(settings, *this, std::move(open)), thread_([this] { run(); }) {}
   ~DriverRun() override { stop(); }
 
-  /// Waits until the condition holds of what was told so far: false when it does not for long.
+  /// Waits until the condition holds of what was told so far: false when it does not for long, or
+  /// the driver has ended.
   [[nodiscard]] bool wait_for(const std::function<bool(const DriverRecord&)>& condition) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return condition(record_); });
+    (void)changed_.wait_for(lock, std::chrono::seconds(20),
+                            [&] { return error_ || condition(record_); });
+    return condition(record_);
   }
 
   /// Waits for that many revolutions more.

@@ -80,7 +80,7 @@ TEST_P(InEach, ModeTheSameRoomIsMeasured) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mode, InEach,
-                         ::testing::Values("Standard", "DenseBoost", "Express", "HQ", "Ultra",
+                         ::testing::Values("Standard", "DenseBoost", "Express", "HQ", "Boost",
                                            "UltraDense"),
                          [](const auto& test) { return std::string(test.param); });
 
