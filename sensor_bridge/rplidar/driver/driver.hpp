@@ -27,6 +27,8 @@ class Driver {
   [[nodiscard]] const DriverCounts& counts() const { return counts_; }
 
  private:
+  /// Returns what it ended with.
+  [[nodiscard]] Finding attempt(const Interruption& interruption);
   void run_connection(const Interruption& interruption);
   void leave_protection_stop(Client& client, DeviceHealth& health);
   [[nodiscard]] bool reset(Client& client);
@@ -37,7 +39,7 @@ class Driver {
   [[nodiscard]] ScanMode mode_of(const Descriptor& descriptor, const DeviceFacts& facts,
                                  const ScanMode& wanted);
   void hand_over(const Revolution& revolution, const ScanMode& mode);
-  void wait_before_next_attempt(const Interruption& interruption);
+  void wait_before_next_attempt(Finding failure, const Interruption& interruption);
   [[nodiscard]] std::vector<unsigned> baud_rates() const;
 
   void enter(DriverState state);
@@ -54,7 +56,7 @@ class Driver {
 
   bool connected_ = false;
   unsigned known_baud_rate_ = 0;  // at which the device was last found
-  int attempts_ = 0;              // to connect, in vain
+  int attempts_ = 0;              // in a row to which no device answered
   Deadline attempt_begin_{};
   int settings_errors_ = 0;  // in a row
   int failures_ = 0;         // of scans, in a row

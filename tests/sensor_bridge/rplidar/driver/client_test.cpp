@@ -21,6 +21,13 @@ using ::testing::Eq;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
+ScanMode mode(std::uint16_t id, SampleFormat format) {
+  ScanMode mode;
+  mode.id = id;
+  mode.format = format;
+  return mode;
+}
+
 class ClientTest : public ::testing::Test {
  protected:
   ClientTest() {
@@ -135,13 +142,12 @@ TEST_F(ClientTest, StartsScansByTheirFormat) {
     return Bytes(head.begin(), head.end());
   };
   answer_with(begin(SampleFormat::standard, 5) + Bytes{1, 2});
-  EXPECT_EQ(client_->start_scan({.format = SampleFormat::standard}), (Descriptor{5, true, 0x81}));
+  EXPECT_EQ(client_->start_scan(mode(0, SampleFormat::standard)), (Descriptor{5, true, 0x81}));
   // What came along is the begin of the measurements.
   EXPECT_THAT(client_->read(std::chrono::steady_clock::now()), ElementsAre(1, 2));
 
   answer_with(begin(SampleFormat::dense, 84));
-  EXPECT_EQ(client_->start_scan({.id = 1, .format = SampleFormat::dense}),
-            (Descriptor{84, true, 0x85}));
+  EXPECT_EQ(client_->start_scan(mode(1, SampleFormat::dense)), (Descriptor{84, true, 0x85}));
   EXPECT_THAT(script_.commands, ElementsAre(Command::scan, Command::express_scan));
   EXPECT_EQ(script_.requests[1].payload()[0], 1);
 }

@@ -32,7 +32,8 @@ namespace quoin::sensor_bridge::rplidar {
           .stable = 400ms,
           .between_resets = 60000ms,
           .shortest_pause = 10ms,
-          .longest_pause = 50ms};
+          .longest_pause = 50ms,
+          .busy_pause = 50ms};
 }
 
 /// What a driver has told.
