@@ -113,7 +113,7 @@ void check_counts(const DecoderCounts& counts, SampleFormat format, std::size_t 
                   std::size_t samples) {
   const FrameLayout layout = layout_of(format);
   const std::size_t accounted = counts.skipped_bytes + counts.frames * layout.bytes;
-  const std::size_t held = format == SampleFormat::standard ? 3 * layout.bytes : layout.bytes;
+  const std::size_t held = format == SampleFormat::standard ? 3 * layout.bytes : layout.bytes + 2;
   require(accounted <= bytes && bytes - accounted < held, "each byte is accounted for");
   require(counts.samples == samples, "samples are counted");
   require(counts.checksum_errors <= counts.skipped_bytes, "a damaged frame is passed over");

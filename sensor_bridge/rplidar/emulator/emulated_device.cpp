@@ -340,12 +340,25 @@ void EmulatedDevice::sample_until(TimePoint now) {
     Sample sample;
     sample.angle_q16 =
         static_cast<std::uint32_t>(std::llround(fraction * full_circle_q16)) % full_circle_q16;
-    sample.distance_q2 = range_finder_.measure(2.0 * std::numbers::pi * fraction, time);
+    sample.distance_q2 =
+        range_finder_.measure(direction_of_ray(2.0 * std::numbers::pi * fraction, time), time);
     sample.quality = sample.distance_q2 != 0 ? quality_of_return : 0;
     frame_.push_back(sample);
     ++samples_;
     if (frame_.size() == frame_size) send_frame(time);
   }
+}
+
+// Readers of ultra capsules take it that the optics look from 24 mm beside the axis, so that near
+// things are seen at another angle than that of the motor.
+double EmulatedDevice::direction_of_ray(double angle, TimePoint time) const {
+  if (identity_.modes[mode_].format != SampleFormat::ultra) return angle;
+  constexpr double offset = 0.02401;  // [m]
+  double direction = angle;
+  for (int i = 0; i < 3; ++i) {
+    direction = angle + std::asin(std::min(1.0, offset / range_finder_.distance(direction, time)));
+  }
+  return direction;
 }
 
 void EmulatedDevice::send_frame(TimePoint now) {

@@ -93,6 +93,7 @@ class EmulatedDevice {
   void begin_samples(TimePoint now);
   [[nodiscard]] std::size_t samples_for_frame() const;
   void sample_until(TimePoint now);
+  [[nodiscard]] double direction_of_ray(double angle, TimePoint time) const;
   void send_frame(TimePoint now);
   void announce(std::uint32_t length, bool repeated, std::uint8_t type, TimePoint now);
   void transmit(std::span<const std::uint8_t> bytes, TimePoint now);

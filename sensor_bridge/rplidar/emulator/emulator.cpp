@@ -110,6 +110,7 @@ EmulatorStatus Emulator::status() const {
   status.endpoint = link_->endpoint();
   status.client_baud_rate = link_->baud_rate();
   status.counts = device_.counts();
+  status.misread_bytes = misread_bytes_;
   status.sent_bytes = link_->sent_bytes();
   status.lost_bytes = link_->lost_bytes() + status.counts.lost_bytes;
   return status;
@@ -118,15 +119,25 @@ EmulatorStatus Emulator::status() const {
 void Emulator::step(TimePoint now) {
   bytes_.clear();
   link_->read(bytes_);
-  const std::optional<unsigned> client = link_->baud_rate();
-  const bool understood = !client || *client == baud_rate_;
-  if (!understood) from_client_.garble(bytes_);
+  misread(bytes_, from_client_, now);
   device_.receive(bytes_, now);
   bytes_.clear();
   device_.send(now, bytes_);
-  if (!understood) to_client_.garble(bytes_);
+  misread(bytes_, to_client_, now);
   plug(now);
   if (link_->plugged_in()) link_->write(bytes_, now);
+}
+
+// What becomes of the bytes when the client's baud rate is not that of the device.
+void Emulator::misread(std::vector<std::uint8_t>& bytes, Garbler& garbler, TimePoint now) {
+  if (bytes.empty()) return;
+  const unsigned client = link_->baud_rate().value_or(baud_rate_);
+  if (client == baud_rate_) return;
+  garbler.garble(bytes);
+  misread_bytes_ += bytes.size();
+  if (std::exchange(misread_baud_rate_, client) == client) return;
+  report(now, "the client talks at " + std::to_string(client) + " bit/s, the device at " +
+                  std::to_string(baud_rate_) + " bit/s: both get garbage");
 }
 
 void Emulator::plug(TimePoint now) {

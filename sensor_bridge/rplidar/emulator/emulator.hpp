@@ -30,8 +30,9 @@ struct EmulatorStatus {
   std::string endpoint;
   std::optional<unsigned> client_baud_rate;  ///< [bit/s] where clients can set one
   DeviceCounts counts;
-  std::uint64_t sent_bytes = 0;  ///< that the client was given
-  std::uint64_t lost_bytes = 0;  ///< that nobody read, or for which the line was too slow
+  std::uint64_t sent_bytes = 0;     ///< that the client was given
+  std::uint64_t misread_bytes = 0;  ///< in either direction, for the baud rates differ
+  std::uint64_t lost_bytes = 0;     ///< that nobody read, or for which the line was too slow
 };
 
 /// On one line.
@@ -65,6 +66,7 @@ class Emulator {
 
   void step(TimePoint now);
   void plug(TimePoint now);
+  void misread(std::vector<std::uint8_t>& bytes, Garbler& garbler, TimePoint now);
   [[nodiscard]] TimePoint next_step(TimePoint now) const;
   void wake() const;
   void report(TimePoint now, const std::string& what) const;
@@ -78,6 +80,8 @@ class Emulator {
   Garbler from_client_;
   Garbler to_client_;
   std::vector<std::uint8_t> bytes_;
+  std::uint64_t misread_bytes_ = 0;
+  unsigned misread_baud_rate_ = 0;  // that was reported last
   TimePoint retry_plug_in_{};
   OwnedDescriptor wake_up_;
   std::atomic<bool> stop_ = false;

@@ -112,9 +112,9 @@ double parse_value(std::string_view fault, const Description& description,
   return *value;
 }
 
-// Cuts off what follows the last `mark`.
+// Cuts off what follows the first `mark`.
 std::optional<std::string_view> take_after(std::string_view& text, char mark) {
-  const std::size_t place = text.rfind(mark);
+  const std::size_t place = text.find(mark);
   if (place == std::string_view::npos) return std::nullopt;
   const std::string_view after = text.substr(place + 1);
   text = text.substr(0, place);
@@ -124,13 +124,7 @@ std::optional<std::string_view> take_after(std::string_view& text, char mark) {
 Fault parse_fault(std::string_view text) {
   std::string_view rest = text;
   Fault fault;
-  // A '+' within a number such as 1e+3 belongs to it.
-  if (const std::size_t plus = rest.rfind('+');
-      plus != std::string_view::npos &&
-      (plus == 0 || (rest[plus - 1] | 0x20) != 'e' ||
-       rest.substr(0, plus).find_first_of("=@") == std::string_view::npos)) {
-    fault.duration = parse_time(text, *take_after(rest, '+'));
-  }
+  if (const auto duration = take_after(rest, '+')) fault.duration = parse_time(text, *duration);
   if (const auto begin = take_after(rest, '@')) fault.begin = parse_time(text, *begin);
   const auto value = take_after(rest, '=');
   const Description& description = describe(text, trimmed(rest));

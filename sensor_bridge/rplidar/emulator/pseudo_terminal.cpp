@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <asm/termbits.h>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <stdexcept>
+#include <sys/inotify.h>
 #include <sys/ioctl.h>
 #include <system_error>
 #include <unistd.h>
@@ -52,6 +55,12 @@ void PseudoTerminal::plug_in() {
   if (!slave) fail(std::string("cannot open ") + name.data());
   make_raw(slave.get());
   slave_path_ = name.data();
+  // A system that does not tell serves its clients all the same.
+  openings_ = OwnedDescriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  if (openings_ && ::inotify_add_watch(openings_.get(), name.data(), IN_OPEN | IN_CLOSE) < 0) {
+    openings_.reset();
+  }
+  clients_ = 0;
   make_link();
   master_ = std::move(master);
   slave_ = std::move(slave);
@@ -62,6 +71,7 @@ void PseudoTerminal::unplug() {
   remove_link();
   master_.reset();
   slave_.reset();
+  openings_.reset();
 }
 
 std::string PseudoTerminal::endpoint() const {
@@ -70,18 +80,45 @@ std::string PseudoTerminal::endpoint() const {
 
 void PseudoTerminal::watch(std::vector<pollfd>& descriptors) const {
   if (master_) descriptors.push_back({master_.get(), POLLIN, 0});
+  if (openings_) descriptors.push_back({openings_.get(), POLLIN, 0});
 }
 
 void PseudoTerminal::read(std::vector<std::uint8_t>& bytes) {
   if (!master_) return;
+  follow_clients();
   std::array<std::uint8_t, 1024> piece;
   const ssize_t size = ::read(master_.get(), piece.data(), piece.size());
-  if (size > 0) bytes.insert(bytes.end(), piece.begin(), piece.begin() + size);
+  if (size <= 0) return;
+  bytes.insert(bytes.end(), piece.begin(), piece.begin() + size);
+  clients_ = std::max(clients_, 1);  // should the system not have told
+}
+
+// A real port is new to each client. This one is kept open, so that what the last client left has
+// to be taken away: bytes that it did not read, and its claim to be the only one.
+void PseudoTerminal::follow_clients() {
+  alignas(inotify_event) std::array<char, 1024> events;
+  ssize_t size = 0;
+  while (openings_ && (size = ::read(openings_.get(), events.data(), events.size())) > 0) {
+    inotify_event event;
+    for (std::size_t place = 0; place + sizeof event <= static_cast<std::size_t>(size);
+         place += sizeof event + event.len) {
+      std::memcpy(&event, events.data() + place, sizeof event);
+      if ((event.mask & IN_OPEN) != 0 && clients_++ == 0) {
+        ::ioctl(slave_.get(), TCFLSH, TCIFLUSH);
+        report_("a client opened the port");
+      } else if ((event.mask & IN_CLOSE) != 0 && clients_ > 0 && --clients_ == 0) {
+        ::ioctl(slave_.get(), TIOCNXCL);
+        ::ioctl(slave_.get(), TCFLSH, TCIFLUSH);
+        report_("no client has the port open any more");
+      }
+    }
+  }
 }
 
 void PseudoTerminal::write(std::span<const std::uint8_t> bytes, TimePoint /*now*/) {
   if (bytes.empty()) return;
-  const ssize_t size = master_ ? ::write(master_.get(), bytes.data(), bytes.size()) : 0;
+  const bool heard = master_ && (clients_ > 0 || !openings_);
+  const ssize_t size = heard ? ::write(master_.get(), bytes.data(), bytes.size()) : 0;
   count(bytes.size(), size > 0 ? static_cast<std::size_t>(size) : 0);
 }
 

@@ -27,6 +27,7 @@ class PseudoTerminal : public Link {
   [[nodiscard]] std::optional<unsigned> baud_rate() const override;
 
  private:
+  void follow_clients();
   void make_link() const;
   void remove_link() const;
 
@@ -35,6 +36,8 @@ class PseudoTerminal : public Link {
   OwnedDescriptor master_;
   /// Without it the terminal would forget its mode whenever no client is there.
   OwnedDescriptor slave_;
+  OwnedDescriptor openings_;  ///< tells when clients open and close the terminal
+  int clients_ = 0;
   std::filesystem::path slave_path_;
 };
 

@@ -19,11 +19,14 @@ RangeFinder::RangeFinder(World world, const EmulatorSettings& settings, TimePoin
       start_(start),
       random_(static_cast<std::uint64_t>(settings.seed)) {}
 
-std::uint32_t RangeFinder::measure(double angle, TimePoint time) {
+double RangeFinder::distance(double angle, TimePoint time) const {
   const Pose2 pose = world_.pose_at(speed_ * seconds_between(start_, time));
   const double heading = pose.theta - angle;
-  const Hit hit = cast_ray(world_, {pose.x, pose.y}, {std::cos(heading), std::sin(heading)});
-  const double range = hit.distance + range_stddev_ * random_.normal();
+  return cast_ray(world_, {pose.x, pose.y}, {std::cos(heading), std::sin(heading)}).distance;
+}
+
+std::uint32_t RangeFinder::measure(double angle, TimePoint time) {
+  const double range = distance(angle, time) + range_stddev_ * random_.normal();
   if (!(range >= range_min_ && range <= range_max_)) return 0;
   return static_cast<std::uint32_t>(std::llround(range * 4000.0));
 }

@@ -19,8 +19,12 @@ class RangeFinder {
   /// The sensor starts along the world's path at `start`.
   RangeFinder(World world, const EmulatorSettings& settings, TimePoint start);
 
-  /// Range [1/4 mm] at `time` in the direction of `angle` [rad], clockwise from the sensor's
-  /// front; 0 without a return or out of limits. Takes the same number of random numbers each time.
+  /// [m] from the sensor to what it sees at `time` in the direction of `angle` [rad], clockwise
+  /// from its front; +inf when there is nothing.
+  [[nodiscard]] double distance(double angle, TimePoint time) const;
+
+  /// Range [1/4 mm] at `time` in that direction, with noise; 0 without a return or out of limits.
+  /// Takes the same number of random numbers each time.
   [[nodiscard]] std::uint32_t measure(double angle, TimePoint time);
 
  private:

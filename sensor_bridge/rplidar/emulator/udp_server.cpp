@@ -40,7 +40,11 @@ void UdpServer::read(std::vector<std::uint8_t>& bytes) {
   const ssize_t size = ::recvfrom(socket_.get(), datagram.data(), datagram.size(), 0, sender.get(),
                                   sender.size_to_fill());
   if (size < 0) return;
-  if (sender.text() != client_.text()) report_("client " + sender.text());
+  if (sender.text() != client_.text()) {
+    report_("client " + sender.text());
+    count(waiting_.size(), 0);  // was for another one
+    waiting_.clear();
+  }
   client_ = sender;
   bytes.insert(bytes.end(), datagram.begin(), datagram.begin() + size);
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/rplidar/protocol/distance_scale.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 namespace quoin::sensor_bridge::rplidar {
@@ -46,8 +45,9 @@ std::uint32_t encode_ultra_distance(std::uint32_t distance_q2) {
   while (distance < ultra_steps[level].first_distance) --level;
   const UltraStep& step = ultra_steps[level];
   const std::uint32_t half_step = level == 0 ? 0 : 1u << (level - 1);
-  return std::min(largest_code,
-                  step.first_code + ((distance - step.first_distance + half_step) >> level));
+  const std::uint32_t code =
+      step.first_code + ((distance - step.first_distance + half_step) >> level);
+  return code <= largest_code ? code : 0;
 }
 
 UltraDensePoint decode_ultra_dense_point(std::uint32_t word) {
@@ -63,8 +63,8 @@ std::uint32_t encode_ultra_dense_point(std::uint32_t distance_q2, std::uint8_t q
   const UltraDenseScale& scale = ultra_dense_scales[index];
   const std::uint32_t step_q2 = 4 * scale.factor;
   const std::uint32_t steps = (distance_q2 - scale.first_distance_q2 + step_q2 / 2) / step_q2;
-  return index | std::min(steps << 2, scale.mask) |
-         (std::uint32_t{quality} >> scale.quality_shift) << scale.quality_bit;
+  if (steps << 2 > scale.mask) return 0;
+  return index | steps << 2 | (std::uint32_t{quality} >> scale.quality_shift) << scale.quality_bit;
 }
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -14,7 +14,7 @@ struct UltraDistance {
 
 /// `code` of 12 bits.
 [[nodiscard]] UltraDistance decode_ultra_distance(std::uint32_t code);
-/// The code of the nearest distance that has one.
+/// The code of the nearest distance that has one; 0, no return, for what is too far.
 [[nodiscard]] std::uint32_t encode_ultra_distance(std::uint32_t distance_q2);
 
 /// What an ultra-dense capsule says of one point.
@@ -26,6 +26,7 @@ struct UltraDensePoint {
 
 /// `word` of 20 bits: two of scale, then distance and quality, which share the rest.
 [[nodiscard]] UltraDensePoint decode_ultra_dense_point(std::uint32_t word);
+/// The word of the nearest distance that has one; 0, no return, for what is too far.
 [[nodiscard]] std::uint32_t encode_ultra_dense_point(std::uint32_t distance_q2,
                                                      std::uint8_t quality);
 

@@ -49,6 +49,28 @@ bool checksum_is_right(const std::uint8_t* frame) {
   }
 }
 
+/// The first place at which a frame may begin, or how many bytes there are.
+template <SampleFormat format>
+std::size_t begin_of_frame(std::span<const std::uint8_t> bytes) {
+  std::size_t offset = 0;
+  while (offset < bytes.size() && !may_begin<format>(bytes.subspan(offset))) ++offset;
+  return offset;
+}
+
+/// Eight bits of checksum are few where a frame is searched for byte by byte: there the next one
+/// must begin right behind it. That costs no time, as a capsule is read with the next one only.
+constexpr std::size_t confirming_sync_bytes(SampleFormat format) {
+  return format == SampleFormat::hq ? 0 : capsule_sync_bytes;
+}
+
+/// Whether this, which begins as a frame, is one; with what follows it, if that is there.
+template <SampleFormat format>
+bool is_frame(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t size = layout_of(format).bytes;
+  return checksum_is_right<format>(bytes.data()) &&
+         (bytes.size() == size || may_begin<format>(bytes.subspan(size)));
+}
+
 /// Whether the byte at this place of a row of nodes can be there.
 bool fits_nodes(const std::uint8_t* nodes, std::size_t place) {
   const std::uint8_t byte = nodes[place];
@@ -109,42 +131,38 @@ template <SampleFormat format>
 bool SampleDecoder::next_frame(std::span<const std::uint8_t>& bytes, SampleBlock& block) {
   constexpr std::size_t frame_bytes = layout_of(format).bytes;
   while (!bytes.empty()) {
-    if (held_size_ == 0 && bytes.size() >= frame_bytes && may_begin<format>(bytes)) {
+    const std::size_t judged = frame_bytes + (in_step_ ? 0 : confirming_sync_bytes(format));
+    if (held_size_ > 0) {
+      // One byte at first: it may show that no frame begins here.
+      hold(bytes, held_size_ == 1 ? 1 : std::min(bytes.size(), judged - held_size_));
+      const std::span<const std::uint8_t> held = std::span(held_).first(held_size_);
+      if (!may_begin<format>(held)) {
+        drop_false_begin<format>();
+      } else if (held_size_ == judged) {
+        if (is_frame<format>(held)) {
+          const bool complete = accept<format>(held_.data(), block);
+          release(frame_bytes);
+          if (complete) return true;
+        } else {
+          drop_false_begin<format>();
+        }
+      }
+      continue;
+    }
+    if (const std::size_t offset = begin_of_frame<format>(bytes); offset > 0) {
+      skip(offset);
+      bytes = bytes.subspan(offset);
+    } else if (bytes.size() < judged) {
+      hold(bytes, bytes.size());
+    } else if (is_frame<format>(bytes.first(judged))) {
       // The usual case: a whole frame, which is read where it lies.
-      if (checksum_is_right<format>(bytes.data())) {
-        const std::uint8_t* frame = bytes.data();
-        bytes = bytes.subspan(frame_bytes);
-        if (accept<format>(frame, block)) return true;
-      } else {
-        if (in_step_) ++counts_.checksum_errors;
-        skip(1);
-        bytes = bytes.subspan(1);
-      }
-      continue;
-    }
-    if (held_size_ == 0) {
-      std::size_t offset = 0;
-      while (offset < bytes.size() && !may_begin<format>(bytes.subspan(offset))) ++offset;
-      if (offset > 0) {
-        skip(offset);
-        bytes = bytes.subspan(offset);
-      } else {
-        hold(bytes, std::min(bytes.size(), frame_bytes));
-      }
-      continue;
-    }
-    // One byte at first: it may show that no frame begins here.
-    hold(bytes, held_size_ == 1 ? 1 : std::min(bytes.size(), frame_bytes - held_size_));
-    if (!may_begin<format>(std::span(held_).first(held_size_))) {
-      drop_held<format>();
-    } else if (held_size_ == frame_bytes) {
-      if (checksum_is_right<format>(held_.data())) {
-        held_size_ = 0;
-        if (accept<format>(held_.data(), block)) return true;
-      } else {
-        if (in_step_) ++counts_.checksum_errors;
-        drop_held<format>();
-      }
+      const std::uint8_t* frame = bytes.data();
+      bytes = bytes.subspan(frame_bytes);
+      if (accept<format>(frame, block)) return true;
+    } else {
+      if (in_step_) ++counts_.checksum_errors;
+      skip(1);
+      bytes = bytes.subspan(1);
     }
   }
   return false;
@@ -153,13 +171,12 @@ bool SampleDecoder::next_frame(std::span<const std::uint8_t>& bytes, SampleBlock
 /// Goes on to the next place in the held bytes at which a frame may begin: a good one may begin
 /// inside what was no frame.
 template <SampleFormat format>
-void SampleDecoder::drop_held() {
-  std::size_t offset = 1;
-  const std::span<const std::uint8_t> held = std::span(held_).first(held_size_);
-  while (offset < held.size() && !may_begin<format>(held.subspan(offset))) ++offset;
+void SampleDecoder::drop_false_begin() {
+  if (in_step_ && held_size_ >= layout_of(format).bytes) ++counts_.checksum_errors;
+  const std::size_t offset =
+      1 + begin_of_frame<format>(std::span(held_).first(held_size_).subspan(1));
   skip(offset);
-  held_size_ -= offset;
-  std::memmove(held_.data(), held_.data() + offset, held_size_);
+  release(offset);
 }
 
 template <SampleFormat format>
@@ -232,8 +249,7 @@ bool SampleDecoder::next_nodes(std::span<const std::uint8_t>& bytes, SampleBlock
     hold(bytes, 1);
     while (held_size_ > 0 && !fit_nodes(std::span(held_).first(held_size_))) {
       skip(1);
-      --held_size_;
-      std::memmove(held_.data(), held_.data() + 1, held_size_);
+      release(1);
     }
     if (held_size_ == (in_step_ ? node_bytes : confirming_bytes)) {
       in_step_ = true;
@@ -261,6 +277,11 @@ void SampleDecoder::hold(std::span<const std::uint8_t>& bytes, std::size_t count
   std::memcpy(held_.data() + held_size_, bytes.data(), count);
   held_size_ += count;
   bytes = bytes.subspan(count);
+}
+
+void SampleDecoder::release(std::size_t count) {
+  held_size_ -= count;
+  std::memmove(held_.data(), held_.data() + count, held_size_);
 }
 
 }  // namespace quoin::sensor_bridge::rplidar

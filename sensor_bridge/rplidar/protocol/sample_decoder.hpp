@@ -46,11 +46,12 @@ class SampleDecoder {
   template <SampleFormat format>
   [[nodiscard]] bool next_frame(std::span<const std::uint8_t>& bytes, SampleBlock& block);
   template <SampleFormat format>
+  void drop_false_begin();
+  template <SampleFormat format>
   [[nodiscard]] bool accept(const std::uint8_t* frame, SampleBlock& block);
   void skip(std::size_t count);
   void hold(std::span<const std::uint8_t>& bytes, std::size_t count);
-  template <SampleFormat format>
-  void drop_held();
+  void release(std::size_t count);
   void hand_out(SampleBlock& block, std::size_t age);
 
   SampleFormat format_;

@@ -43,7 +43,7 @@ struct FrameLayout {
     case SampleFormat::dense:
       return {84, 40};
     case SampleFormat::ultra_dense:
-      return {172, 64};
+      return {170, 64};
   }
   return {1, 0};
 }

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor_bridge/rplidar/protocol/sample_decoder.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/sensor_bridge/rplidar/protocol/sample_stream.hpp"
+
+namespace quoin::sensor_bridge::rplidar {
+namespace {
+
+/// A dense capsule whose distances are all the same.
+Bytes dense_capsule(unsigned start_degrees, bool first = false, unsigned distance = 0) {
+  const unsigned start = start_degrees * 64 | (first ? 0x8000 : 0);
+  // An even number of equal distances takes itself out of the checksum.
+  const unsigned sum = (start & 0xFF) ^ start >> 8;
+  Bytes bytes{static_cast<std::uint8_t>(0xA0 | (sum & 0xF)),
+              static_cast<std::uint8_t>(0x50 | sum >> 4), static_cast<std::uint8_t>(start),
+              static_cast<std::uint8_t>(start >> 8)};
+  for (int k = 0; k < 40; ++k) {
+    bytes.push_back(static_cast<std::uint8_t>(distance));
+    bytes.push_back(static_cast<std::uint8_t>(distance >> 8));
+  }
+  return bytes;
+}
+
+TEST(SampleDecoder, TellsTheAgeOfABlock) {
+  SampleBlock block;
+  for (const SampleFormat format : sample_formats) {
+    const FrameLayout layout = layout_of(format);
+    const Bytes bytes = encode(format, random_samples(2 * layout.samples, 1));
+    SampleDecoder decoder(format, sample_period);
+    std::span<const std::uint8_t> rest = bytes;
+    ASSERT_TRUE(decoder.next(rest, block)) << format_name(format);
+    if (format == SampleFormat::standard) {
+      EXPECT_EQ(block.size, 2u);
+      EXPECT_EQ(block.age, 1u);
+    } else {
+      EXPECT_EQ(block.size, layout.samples);
+      EXPECT_EQ(block.age, (format == SampleFormat::hq ? 1 : 2) * layout.samples - 1);
+    }
+    EXPECT_TRUE(block.after_gap);
+    EXPECT_EQ(decoder.counts().samples, block.size);
+    EXPECT_EQ(decoder.counts().skipped_bytes, 0u);
+  }
+}
+
+TEST(SampleDecoder, GivesTheSameSamplesHoweverTheBytesArrive) {
+  std::mt19937 random(20260422);
+  for (const SampleFormat format : sample_formats) {
+    const std::size_t frame_bytes = layout_of(format).bytes;
+    Bytes bytes =
+        hex("A5 5A 3D A0 51") + encode(format, random_samples(12 * layout_of(format).samples, 2));
+    for (int damage = 0; damage < 3; ++damage) bytes[random() % bytes.size()] ^= 0x10;
+    bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(7 * frame_bytes));
+
+    SampleDecoder whole(format, sample_period);
+    const DecodedSamples expected = decode(whole, bytes);
+    ASSERT_FALSE(expected.empty());
+    SampleDecoder single(format, sample_period);
+    EXPECT_EQ(decode(single, bytes, [] { return 1; }), expected) << format_name(format);
+    EXPECT_EQ(single.counts(), whole.counts()) << format_name(format);
+    for (std::size_t largest = 2; largest < 2 * frame_bytes; largest += largest / 3 + 1) {
+      SampleDecoder pieces(format, sample_period);
+      EXPECT_EQ(decode(pieces, bytes, [&] { return 1 + random() % largest; }), expected);
+      EXPECT_EQ(pieces.counts(), whole.counts()) << format_name(format);
+    }
+  }
+}
+
+TEST(SampleDecoder, HandsOutEachNodeOnItsArrival) {
+  const Bytes bytes = encode(SampleFormat::standard, random_samples(250, 3));
+  SampleDecoder decoder(SampleFormat::standard);
+  SampleBlock block;
+  std::span<const std::uint8_t> node = std::span(bytes).first(5);
+  ASSERT_TRUE(decoder.next(node, block));
+  EXPECT_EQ(block.size, 1u);
+  EXPECT_EQ(block.age, 0u);
+  node = std::span(bytes).subspan(5, 4);
+  EXPECT_FALSE(decoder.next(node, block));
+  // The last byte of one node and all of the others.
+  std::span<const std::uint8_t> rest = std::span(bytes).subspan(9);
+  std::vector<std::size_t> sizes;
+  while (decoder.next(rest, block)) {
+    sizes.push_back(block.size);
+    EXPECT_FALSE(block.after_gap);
+  }
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{96, 96, 57}));
+}
+
+TEST(SampleDecoder, StartsAnewWhenTheDeviceDoes) {
+  SampleDecoder decoder(SampleFormat::dense, sample_period);
+  const DecodedSamples samples =
+      decode(decoder, dense_capsule(0, true, 100) + dense_capsule(4, false, 200) +
+                          dense_capsule(8, true, 300) + dense_capsule(12, false, 400));
+  // The second capsule leads nowhere: its end is not known.
+  ASSERT_EQ(samples.size(), 80u);
+  EXPECT_EQ(samples[0], (DecodedSample{0, 400, 188, true}));
+  EXPECT_EQ(samples[40], (DecodedSample{8u << 16, 1200, 188, true}));
+  EXPECT_EQ(decoder.counts(), (DecoderCounts{4, 80, 0, 0, 0, 1}));
+}
+
+TEST(SampleDecoder, RefusesCapsulesThatCannotFollowEachOther) {
+  // 100 revolutions a second: 40 * 108 us are 155.52 degrees.
+  SampleDecoder decoder(SampleFormat::dense, sample_period);
+  DecodedSamples samples = decode(decoder, dense_capsule(0, true) + dense_capsule(155));
+  EXPECT_EQ(samples.size(), 40u);
+  samples = decode(decoder, dense_capsule(311) + dense_capsule(310) + dense_capsule(314));
+  ASSERT_EQ(samples.size(), 40u);
+  EXPECT_EQ(samples[0].angle_q16, 310u << 16);
+  EXPECT_TRUE(samples[0].after_gap);
+  EXPECT_EQ(decoder.counts(), (DecoderCounts{5, 80, 0, 0, 2, 0}));
+}
+
+TEST(SampleDecoder, TakesHalfACircleWhenThePeriodIsUnknown) {
+  for (const double period : {0.0, -1.0, 1.0, std::nan("")}) {
+    SampleDecoder decoder(SampleFormat::dense, period);
+    EXPECT_EQ(decode(decoder, dense_capsule(0, true) + dense_capsule(180)).size(), 40u);
+    EXPECT_TRUE(decode(decoder, dense_capsule(1)).empty());
+    EXPECT_EQ(decoder.counts().implausible, 1u);
+  }
+}
+
+TEST(SampleDecoder, TakesAStandingMotor) {
+  const DecodedSamples samples =
+      decode(SampleFormat::dense, dense_capsule(5, true) + dense_capsule(5));
+  ASSERT_EQ(samples.size(), 40u);
+  EXPECT_EQ(samples[39].angle_q16, 5u << 16);
+}
+
+TEST(SampleDecoder, TakesStartAnglesBeyondTheCircle) {
+  const DecodedSamples samples =
+      decode(SampleFormat::dense, dense_capsule(365, true) + dense_capsule(9));
+  ASSERT_EQ(samples.size(), 40u);
+  EXPECT_EQ(samples[0].angle_q16, 5u << 16);
+}
+
+// 0x5AA5 mm: each distance looks like the begin of a capsule.
+TEST(SampleDecoder, FindsCapsulesAmongWhatLooksLikeThem) {
+  Bytes bytes;
+  for (unsigned k = 0; k < 6; ++k) bytes = bytes + dense_capsule(4 * k, k == 0, 0x5AA5);
+  const DecodedSamples expected = decode(SampleFormat::dense, bytes);
+  ASSERT_EQ(expected.size(), 200u);
+  for (std::size_t cut = 1; cut < 84; ++cut) {
+    SampleDecoder decoder(SampleFormat::dense, sample_period);
+    DecodedSamples samples = decode(decoder, std::span(bytes).subspan(cut));
+    ASSERT_EQ(samples.size(), 160u) << cut;
+    EXPECT_TRUE(samples[0].after_gap);
+    samples[0].after_gap = false;
+    EXPECT_TRUE(std::equal(samples.begin(), samples.end(), expected.begin() + 40)) << cut;
+    EXPECT_EQ(decoder.counts().skipped_bytes, 84 - cut);
+  }
+}
+
+TEST(SampleDecoder, FindsACapsuleThatBeginsInsideADamagedOne) {
+  const Bytes good = dense_capsule(4, false, 200) + dense_capsule(8, false, 300);
+  for (std::size_t kept = 1; kept < 84; ++kept) {
+    Bytes damaged = dense_capsule(0, true, 0x1122);
+    damaged.resize(kept);
+    SampleDecoder decoder(SampleFormat::dense, sample_period);
+    const DecodedSamples samples = decode(decoder, damaged + good);
+    ASSERT_EQ(samples.size(), 40u) << kept;
+    EXPECT_EQ(samples[0], (DecodedSample{4u << 16, 800, 188, true}));
+    EXPECT_EQ(decoder.counts().skipped_bytes, kept);
+  }
+}
+
+TEST(SampleDecoder, FindsNodesFromTheMiddleOfTheStream) {
+  const Bytes bytes = encode(SampleFormat::standard, random_samples(200, 4));
+  const DecodedSamples expected = decode(SampleFormat::standard, bytes);
+  // The first bytes of a stream are taken on trust; these here show that they are none.
+  const Bytes noise = hex("00 00 00");
+  for (std::size_t cut = 0; cut < 5; ++cut) {
+    const DecodedSamples samples =
+        decode(SampleFormat::standard, noise + std::span(bytes).subspan(cut));
+    ASSERT_GE(samples.size(), 195u);
+    EXPECT_TRUE(std::equal(samples.end() - 190, samples.end(), expected.end() - 190)) << cut;
+  }
+}
+
+}  // namespace
+}  // namespace quoin::sensor_bridge::rplidar
