@@ -3,6 +3,7 @@
 #include "sensor_bridge/rplidar/driver/connection.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -46,6 +47,8 @@ Connection connect(const Opener& open, const std::string& name, unsigned baud_ra
   MotorGuard guard(open(baud_rate));
   Client client(guard.transport(), interruption, time_outs, name);
   guard.arm(true);
+  // Told at once, a device may fall silent before a byte of it is seen.
+  (void)client.read(std::chrono::steady_clock::now() + time_outs.quiet);
   const bool quiet = client.stop();
   const bool was_sending = client.received_bytes() > 0;
   // Where the word to stop was not understood, that about the motor will not be either.

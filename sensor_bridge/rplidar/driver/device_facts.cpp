@@ -159,11 +159,11 @@ DeviceFacts ask_facts(Client& client, const std::string& endpoint, unsigned baud
 ScanPlan plan_scan(const DeviceFacts& facts, const std::string& mode_name, double scan_frequency) {
   const ScanMode* mode = find_mode(facts, mode_name);
   if (!mode) {
-    throw SettingsError({.finding = Finding::unknown_scan_mode,
-                         .text = facts.endpoint + ": " + model_text(facts.info) +
-                                 " has no scan mode " +
-                                 (mode_name.empty() ? "that it calls typical" : excerpt(mode_name)),
-                         .advice = "choose one of: " + names_of(facts.modes)});
+    throw SettingsError(
+        {.finding = Finding::unknown_scan_mode,
+         .text = facts.endpoint + ": " + model_text(facts.info) + " has no scan mode " +
+                 (mode_name.empty() ? "that is typical and can be read" : excerpt(mode_name)),
+         .advice = "choose one of: " + names_of(facts.modes)});
   }
   if (mode->sample_period <= 0.0) {
     throw DeviceError(wrong_value(

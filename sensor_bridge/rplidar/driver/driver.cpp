@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr int most_resets = 3;  // in a row
-/// Other baud rates than the last one are tried now and then: it may be another device.
-constexpr int attempts_at_known_rate = 3;
+/// Then one at another baud rate: it may be another device that does not answer.
+constexpr int attempts_at_known_rate = 7;
 
 /// [s] What a serial line takes for a frame.
 double line_time(SampleFormat format, unsigned baud_rate) {
@@ -64,22 +64,34 @@ Driver::Driver(DriverSettings settings, DriverListener& listener, Opener open)
 void Driver::run(const Interruption& interruption) {
   try {
     while (true) {
-      try {
-        run_connection(interruption);
-      } catch (const SettingsError&) {
-        throw;
-      } catch (const DeviceError& error) {
-        recover_from(error.diagnosis());
-      } catch (const TransportError& error) {
-        recover_from(rplidar::diagnosis_of(error));
-      }
-      connected_ = false;
-      wait_before_next_attempt(interruption);
+      wait_before_next_attempt(attempt(interruption), interruption);
     }
   } catch (const Stopped&) {
     connected_ = false;
     enter(DriverState::stopped);
   }
+}
+
+Finding Driver::attempt(const Interruption& interruption) {
+  Diagnosis diagnosis;
+  try {
+    run_connection(interruption);
+    connected_ = false;
+    return Finding::fine;
+  } catch (const SettingsError& error) {
+    // Answers have no checksum: a damaged one shall not end the run.
+    if (++settings_errors_ > 1) throw;
+    diagnosis = error.diagnosis();
+  } catch (const DeviceError& error) {
+    ++attempts_;
+    diagnosis = error.diagnosis();
+  } catch (const TransportError& error) {
+    attempts_ = 0;
+    diagnosis = rplidar::diagnosis_of(error);
+  }
+  recover_from(diagnosis);
+  connected_ = false;
+  return diagnosis.finding;
 }
 
 void Driver::run_connection(const Interruption& interruption) {
@@ -96,6 +108,7 @@ void Driver::run_connection(const Interruption& interruption) {
   facts.health = health;
   const ScanPlan plan = plan_scan(facts, settings_.scan_mode, settings_.scan_frequency);
   connected_ = true;
+  settings_errors_ = 0;
   ++counts_.connections;
   listener_.connected(facts, plan);
   // Ever stronger means, until there are measurements for a while: start the scan anew, connect
@@ -216,22 +229,26 @@ void Driver::hand_over(const Revolution& revolution, const ScanMode& mode) {
   listener_.revolution(revolution, mode);
 }
 
-void Driver::wait_before_next_attempt(const Interruption& interruption) {
+void Driver::wait_before_next_attempt(Finding failure, const Interruption& interruption) {
   enter(DriverState::waiting);
-  ++attempts_;
+  const TimeOuts& time_outs = settings_.time_outs;
+  const TimeOuts::Time pause = failure == Finding::busy ? time_outs.busy_pause : pause_;
   // Counted from the begin of the attempt, which takes its time where a port is there but silent.
-  wait_until(interruption, std::max(attempt_begin_ + pause_,
-                                    Clock::now() + settings_.time_outs.shortest_pause));
-  pause_ = std::min(2 * pause_, settings_.time_outs.longest_pause);
+  wait_until(interruption,
+             std::max(attempt_begin_ + pause, Clock::now() + time_outs.shortest_pause));
+  pause_ = std::min(2 * pause_, time_outs.longest_pause);
 }
 
 std::vector<unsigned> Driver::baud_rates() const {
   const bool serial = settings_.endpoint.kind == Endpoint::Kind::serial;
   if (serial && settings_.baud_rate != 0) return {settings_.baud_rate};
-  const bool at_known_rate =
-      known_baud_rate_ != 0 && attempts_ % (attempts_at_known_rate + 1) != attempts_at_known_rate;
-  if (serial && at_known_rate) return {known_baud_rate_};
-  return baud_rates_for(settings_.endpoint, known_baud_rate_);
+  const std::vector<unsigned> all = baud_rates_for(settings_.endpoint, known_baud_rate_);
+  if (!serial || known_baud_rate_ == 0) return all;
+  const int turn = attempts_ % (attempts_at_known_rate + 1);
+  if (turn < attempts_at_known_rate) return {known_baud_rate_};
+  const std::size_t others = all.size() - 1;
+  const auto round = static_cast<std::size_t>(attempts_ / (attempts_at_known_rate + 1));
+  return {all[1 + round % others]};
 }
 
 void Driver::enter(DriverState state) {

@@ -19,13 +19,16 @@ class Driver {
   Driver(DriverSettings settings, DriverListener& listener, Opener open = {});
 
   /// Returns when interrupted. The motor is stopped by whatever way it ends. Throws SettingsError
-  /// when the device has no such scan mode or speed, and what the listener throws.
+  /// when the device says twice that it has no such scan mode or speed, and what the listener
+  /// throws.
   void run(const Interruption& interruption);
 
   /// For the thread that runs it, as in calls of the listener.
   [[nodiscard]] const DriverCounts& counts() const { return counts_; }
 
  private:
+  /// Returns what it ended with.
+  [[nodiscard]] Finding attempt(const Interruption& interruption);
   void run_connection(const Interruption& interruption);
   void leave_protection_stop(Client& client, DeviceHealth& health);
   [[nodiscard]] bool reset(Client& client);
@@ -36,7 +39,7 @@ class Driver {
   [[nodiscard]] ScanMode mode_of(const Descriptor& descriptor, const DeviceFacts& facts,
                                  const ScanMode& wanted);
   void hand_over(const Revolution& revolution, const ScanMode& mode);
-  void wait_before_next_attempt(const Interruption& interruption);
+  void wait_before_next_attempt(Finding failure, const Interruption& interruption);
   [[nodiscard]] std::vector<unsigned> baud_rates() const;
 
   void enter(DriverState state);
@@ -53,10 +56,11 @@ class Driver {
 
   bool connected_ = false;
   unsigned known_baud_rate_ = 0;  // at which the device was last found
-  int attempts_ = 0;              // to connect, in vain
+  int attempts_ = 0;              // in a row to which no device answered
   Deadline attempt_begin_{};
-  int failures_ = 0;              // of scans, in a row
-  int resets_ = 0;                // in a row
+  int settings_errors_ = 0;  // in a row
+  int failures_ = 0;         // of scans, in a row
+  int resets_ = 0;           // in a row
   Deadline last_reset_{};
   TimeOuts::Time pause_;
 };

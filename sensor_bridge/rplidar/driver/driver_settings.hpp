@@ -27,6 +27,7 @@ struct TimeOuts {
   Time between_resets{60000};  ///< once a few of them in a row were of no help
   Time shortest_pause{50};     ///< between attempts to connect; doubles each time
   Time longest_pause{500};
+  Time busy_pause{2000};  ///< where another program uses the port, whose name is costly to find
 };
 
 struct DriverSettings {
