@@ -13,7 +13,7 @@ case "${1-}" in
   --json) format=json ;;
   *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
 esac
-for program in extraction_benchmark chain_benchmark; do
+for program in extraction_benchmark chain_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark; do
   if [[ ! -x $bin/$program ]]; then
     echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
     exit 2
