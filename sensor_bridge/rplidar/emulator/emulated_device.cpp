@@ -31,6 +31,15 @@ EmulatorSettings checked(const EmulatorSettings& settings) {
     throw std::invalid_argument("frequency " + std::to_string(settings.frequency) +
                                 " Hz is not between 8 and 15 Hz");
   }
+  if (!(settings.spin_up_time >= 0.0 && settings.reset_time >= 0.0 &&
+        settings.range_stddev >= 0.0)) {
+    throw std::invalid_argument(
+        "the times of spin-up and reset and the standard deviation of ranges must not be negative");
+  }
+  if (!(std::abs(settings.clock_error) <= 0.01)) {
+    throw std::invalid_argument("clock error " + std::to_string(settings.clock_error) +
+                                " is not between -0.01 and 0.01");
+  }
   return settings;
 }
 

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -47,6 +48,9 @@ int main(int argc, char** argv) {
     });
     run_console(emulator, print);
     return 0;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "quoin-rplidar-emulator: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "quoin-rplidar-emulator: %s\n", error.what());
     return 1;

@@ -138,6 +138,10 @@ TEST(DeviceCommands, RefuseSettingsThatCannotBe) {
                std::invalid_argument);
   EXPECT_THROW(made_with([](auto& settings) { settings.frequency = 7.9; }), std::invalid_argument);
   EXPECT_THROW(made_with([](auto& settings) { settings.baud_rate = 0; }), std::invalid_argument);
+  EXPECT_THROW(made_with([](auto& settings) { settings.reset_time = -1.0; }),
+               std::invalid_argument);
+  EXPECT_THROW(made_with([](auto& settings) { settings.clock_error = 0.1; }),
+               std::invalid_argument);
   EXPECT_THROW(made_with([](auto& settings) { settings.faults = "silense"; }), FaultError);
 }
 
