@@ -16,6 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 /// How soon a request to stop is heeded while nothing arrives.
 constexpr std::chrono::milliseconds slice = 100ms;
+/// While bytes arrive it is not asked for with each of them: to ask has its price, too.
+constexpr std::chrono::milliseconds shortest_question = 20ms;
 constexpr std::size_t largest_heard = 512;
 /// Answers to earlier questions that may stand before the one that is waited for.
 constexpr int most_other_answers = 16;
@@ -33,7 +35,10 @@ std::span<const std::uint8_t> Client::read(Deadline deadline) {
   if (!rest_.empty()) return std::exchange(rest_, {});
   while (true) {
     const Deadline now = Clock::now();
-    wait_until(interruption_, now);
+    if (now >= next_question_) {
+      wait_until(interruption_, now);
+      next_question_ = now + shortest_question;
+    }
     if (now >= deadline) return {};  // though there may be bytes: a device may never be quiet
     const Deadline end = std::min(deadline, now + slice);
     const std::size_t size = transport_.read(buffer_, end);

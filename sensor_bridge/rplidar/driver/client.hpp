@@ -65,6 +65,7 @@ class Client {
   std::array<std::uint8_t, 4096> buffer_;
   std::span<const std::uint8_t> rest_;  // of the buffer, not yet read by anybody
   std::vector<std::uint8_t> heard_;     // the first bytes behind a request, for the diagnosis
+  Deadline next_question_{};            // whether to stop
   std::uint64_t received_bytes_ = 0;
 };
 

@@ -25,6 +25,7 @@ class SerialPort final : public FileStream {
     if (exclusive_) (void)set_exclusive(descriptor(), false);
   }
 
+  /// The system holds the line since the port was opened. Pseudo-terminals have none.
   void hold_motor(bool hold) override { (void)set_terminal_ready(descriptor(), hold); }
 
  private:
@@ -81,7 +82,6 @@ std::unique_ptr<Transport> open_serial(const std::string& path, unsigned baud_ra
                          path + ": the adapter cannot do " + std::to_string(baud_rate) + " baud");
   }
   if (error != 0) throw system_error(path, "set up", error);
-  stream->hold_motor(false);  // pseudo-terminals and some adapters have no such line
   (void)flush_input(port);
   return stream;
 }
