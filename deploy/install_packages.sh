@@ -2,20 +2,23 @@
 # SPDX-FileCopyrightText: 2026 The Quoin authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the Debian packages of packages.txt that are missing. Asks nothing, and does nothing when
-# all are there.
+# Installs the Debian packages that are missing of packages.txt, or of the lists that are given. Asks
+# nothing, and does nothing when all are there.
 set -eu
 
 folder=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+if [ $# -eq 0 ]; then
+  set -- "$folder/packages.txt"
+fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_packages.sh: needs Debian's dpkg-query and apt-get; elsewhere install what" \
-    "$folder/packages.txt names" >&2
+    "these files name: $*" >&2
   exit 1
 fi
 
 missing=
-for package in $(sed 's/#.*//' "$folder/packages.txt"); do
+for package in $(cat -- "$@" | sed 's/#.*//'); do
   status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
   # A package for several architectures answers once for each.
   case $status in

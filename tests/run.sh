@@ -3,24 +3,27 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs what is missing, builds, and runs every test through CTest: the release build with everything,
-# then the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+# then the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, and a short run of the fuzz targets.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 usage() {
   cat <<'TEXT'
-usage: tests/run.sh [--build-only] [--no-sanitizers]
+usage: tests/run.sh [--build-only] [--no-sanitizers] [--no-fuzzing]
   --build-only      install and build the release tree, run nothing
   --no-sanitizers   leave out the second build with sanitizers
+  --no-fuzzing      leave out the fuzz targets, which need clang++
 TEXT
 }
 build_only=false
 sanitizers=true
+fuzzing=true
 for argument in "$@"; do
   case $argument in
     --build-only) build_only=true ;;
     --no-sanitizers) sanitizers=false ;;
+    --no-fuzzing) fuzzing=false ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -31,6 +34,7 @@ jobs=$(nproc)
 
 step "packages"
 deploy/install_packages.sh
+if $fuzzing && ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
 step "release build"
 cmake --preset release -DQUOIN_TESTS=ON -DQUOIN_BENCHMARKS=ON
@@ -45,4 +49,9 @@ if $sanitizers; then
   cmake --preset asan
   cmake --build --preset asan -j "$jobs"
   UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$jobs"
+fi
+
+if $fuzzing; then
+  step "fuzz targets"
+  tests/fuzz/run.sh
 fi

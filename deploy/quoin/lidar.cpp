@@ -62,7 +62,8 @@ LidarReport examine(const Endpoint& endpoint, const LidarOptions& options,
                           .scan_frequency = options.scan_frequency,
                           .time_outs = {}};
   LidarReport report{.probe = probe(settings, interruption), .measurement = {}};
-  if (!report.found() || options.idle) return report;
+  const bool refuses = report.probe.diagnosis.finding == Finding::protection_stop;
+  if (!report.found() || refuses || options.idle) return report;
   settings.baud_rate = report.probe.facts->baud_rate;
   const std::chrono::duration<double> limit(options.seconds);
   report.measurement = measure(settings, revolutions,

@@ -29,8 +29,8 @@ struct RplidarParameters {
     using P = RplidarParameters;
     return std::tuple{
         field(&P::serial_port, "serial_port",
-              "serial device, tcp://host[:20108] or udp://host[:8089]; auto takes the only USB "
-              "serial adapter of the usual type"),
+              "serial device (./ is relative to the deployment file), tcp://host[:20108] or "
+              "udp://host[:8089]; auto takes the only USB serial adapter of the usual type"),
         field(&P::serial_baudrate, "serial_baudrate", "", 0.0, 4000000.0,
               "bits a second of a serial port, 256000 for an S1; 0 tries the usual ones"),
         field(&P::scan_mode, "scan_mode",

@@ -26,6 +26,12 @@ deny sensor_bridge "$dds|spdlog" "sensor_bridge/ reaches DDS through the service
 deny sensor_bridge/rplidar/protocol '(core|idl|services|deploy|sensor_bridge|sys)/|iostream|fstream|unistd' \
   "the RPLIDAR protocol knows nobody and does no input or output" \
   'sensor_bridge/rplidar/protocol/[a-z_]+\.hpp"$'
+deny sensor_bridge/rplidar/transport 'core/|deploy/|idl/|services/|sensor_bridge/rplidar/(driver|emulator)' \
+  "the RPLIDAR transport knows nobody but the protocol"
+deny sensor_bridge/rplidar/driver 'core/|deploy/|idl/|services/|sensor_bridge/rplidar/emulator' \
+  "the RPLIDAR driver knows protocol and transport"
+deny sensor_bridge/rplidar/emulator 'deploy/|idl/|services/|sensor_bridge/rplidar/(driver|transport)' \
+  "the RPLIDAR emulator knows the protocol and simulated worlds"
 deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
 deny deploy 'core/(segmentation|fitting|corners)/' "deploy/ reaches methods through the method lists" \
   'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?)\.hpp'
@@ -51,6 +57,11 @@ missing=$(sources -name '*.hpp' -o -name '*.cpp' -o -name '*.idl' -o -name '*.sh
   grep -v '^tests/deploy/malformed/' | xargs grep -LE 'SPDX-License-Identifier: Apache-2\.0')
 if [[ -n $missing ]]; then
   printf 'no SPDX header:\n%s\n' "$missing"
+  violations=$((violations + 1))
+fi
+
+if grep -HnE 'MODE="0?[0-7]{2}[2367]"' deploy/udev/*.rules; then
+  echo "devices are not for everybody to write"
   violations=$((violations + 1))
 fi
 

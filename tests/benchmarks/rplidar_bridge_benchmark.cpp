@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const tests::TestDeployment deployment(
-      "  - {name: front, kind: rplidar, parameters: {serial_port: device.tty, "
+      "  - {name: front, kind: rplidar, parameters: {serial_port: ./device.tty, "
       "serial_baudrate: 256000, scan_frequency: 10 Hz}}\n");
   runtime::Participant participant(deployment.participant("benchmark"));
   runtime::Reader<msg::Scan> reader(participant, deployment.topic("front"),

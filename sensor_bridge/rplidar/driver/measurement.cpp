@@ -31,6 +31,13 @@ class Recorder final : public DriverListener {
 
   void problem(const Diagnosis& diagnosis) override { result_.problems.push_back(diagnosis); }
 
+  /// Adds it unless it is what was told last.
+  void end(const Diagnosis& diagnosis) {
+    if (result_.problems.empty() || result_.problems.back().finding != diagnosis.finding) {
+      result_.problems.push_back(diagnosis);
+    }
+  }
+
   [[nodiscard]] bool done() const { return result_.revolutions >= wanted_; }
 
   [[nodiscard]] Measurement result() const {
@@ -65,7 +72,7 @@ Measurement measure(const DriverSettings& settings, std::size_t revolutions,
       return !recorder.done() && Clock::now() < end && interruption(std::min(time, end));
     });
   } catch (const SettingsError& error) {
-    recorder.problem(error.diagnosis());
+    recorder.end(error.diagnosis());
   }
   Measurement result = recorder.result();
   result.counts = driver.counts();

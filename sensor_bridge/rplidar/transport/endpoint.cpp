@@ -67,7 +67,8 @@ Endpoint parse_endpoint(std::string_view text) {
   if (text.starts_with(udp)) {
     return parse_network(text, text.substr(udp.size()), Endpoint::Kind::udp, default_udp_port);
   }
-  if (!text.starts_with('/')) refuse(text, text.empty() ? "it is empty" : "of no known kind");
+  const bool is_path = text.starts_with('/') || text.starts_with("./") || text.starts_with("../");
+  if (!is_path) refuse(text, text.empty() ? "it is empty" : "of no known kind");
   if (!std::ranges::all_of(text, stands_in_a_path)) refuse(text, "a space or control character");
   return {.kind = Endpoint::Kind::serial, .path = std::string(text), .host = {}, .port = 0};
 }

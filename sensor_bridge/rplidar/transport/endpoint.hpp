@@ -31,8 +31,9 @@ class EndpointError : public std::runtime_error {
 inline constexpr std::uint16_t default_tcp_port = 20108;
 inline constexpr std::uint16_t default_udp_port = 8089;
 
-/// "/dev/ttyUSB0" (or a link to it), "tcp://host:port" or "udp://host:port"; the port may be left
-/// out, an IPv6 address stands in brackets. Throws EndpointError.
+/// "/dev/ttyUSB0" (or a link to it; relative with ./ or ../), "tcp://host:port" or
+/// "udp://host:port"; the port may be left out, an IPv6 address stands in brackets. Throws
+/// EndpointError.
 [[nodiscard]] Endpoint parse_endpoint(std::string_view text);
 
 /// What parse_endpoint reads.
