@@ -18,7 +18,8 @@ namespace quoin {
 
 /// Which definition of the covariance a fitter reports.
 enum class CovarianceMode {
-  propagated,    ///< sum of independent contributions of all points; what Monte Carlo confirms
+  propagated,    ///< independent contributions of all points, and bias where it is known; what
+                 ///< Monte Carlo confirms
   as_published,  ///< as the method's paper prints it, for comparison with its tables
 };
 

@@ -95,15 +95,17 @@ FitFailure solve_inverse_range(const PointsView& points, InverseLine& line) {
 }
 
 FitResult fit_inverse_range(const PointsView& points, const SensorModel& sensor,
-                            bool common_errors) {
+                            CountedErrors counted) {
   InverseLine line;
   const FitFailure failure = solve_inverse_range(points, line);
   if (failure != FitFailure::none) return FitResult::failed(failure);
-  if (common_errors) {
+  if (counted == CountedErrors::common) {
     return to_normal_form(line, inverse_range_common_influence(points, line.q, sensor));
   }
   Symmetric2 influence = inverse_range_influence(points, line.q, sensor);
-  add_bearing_bias(line, sensor.bearing_stddev * sensor.bearing_stddev, influence);
+  if (counted == CountedErrors::independent_and_bias) {
+    add_bearing_bias(line, sensor.bearing_stddev * sensor.bearing_stddev, influence);
+  }
   return to_normal_form(line, influence);
 }
 

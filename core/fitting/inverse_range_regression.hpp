@@ -45,8 +45,15 @@ struct InverseRangeSums {
 /// The line of the regression alone; fails by name and leaves `line` as it was.
 [[nodiscard]] FitFailure solve_inverse_range(const PointsView& points, InverseLine& line);
 
+/// What the covariance of the algebraic fit counts.
+enum class CountedErrors {
+  independent_and_bias,  ///< of each point by itself, and the bias by the noise of the bearings
+  independent,           ///< of each point by itself
+  common,                ///< one range error and one bearing error of all points
+};
+
 /// The fit shared by WTLS and WCTLS, which differ in what they publish as covariance.
 [[nodiscard]] FitResult fit_inverse_range(const PointsView& points, const SensorModel& sensor,
-                                          bool common_errors);
+                                          CountedErrors counted);
 
 }  // namespace quoin

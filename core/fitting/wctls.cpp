@@ -8,7 +8,10 @@ namespace quoin {
 
 FitResult Wctls::operator()(const PointsView& points, const SensorModel& sensor) const {
   // q = (A, B) = (x_Q, -y_Q): the signs cancel in (alpha, r), see to_normal_form.
-  return fit_inverse_range(points, sensor, /*common_errors=*/false);
+  return fit_inverse_range(points, sensor,
+                           parameters_.covariance == CovarianceMode::as_published
+                               ? CountedErrors::independent
+                               : CountedErrors::independent_and_bias);
 }
 
 }  // namespace quoin

@@ -11,8 +11,9 @@ namespace quoin {
 /// sigma_theta cancel in the line. The covariance is C_Q mapped by eq. (22) and (23), and on to
 /// (alpha, r).
 ///
-/// Both covariance modes are the same here: the paper takes C_Q from WCLM, where it is the sum of
-/// independent contributions of the points already.
+/// `as_published` is that: the paper takes C_Q from WCLM, where it is the sum of independent
+/// contributions of the points already. `propagated` adds the bias that noise of the bearings gives
+/// the line.
 class Wctls {
  public:
   static constexpr const char* name = "wctls";
@@ -20,17 +21,20 @@ class Wctls {
       "weighted conformal total least squares: the line by its point Q in the inverted plane";
   static constexpr const char* source = "Prieto-Fernandez et al. 2026, eq. 16-23";
   static constexpr const char* choose =
-      "For the shortest time with a covariance that holds while the noise of the bearings is "
-      "small against their spacing; where it is as large, lines far from the foot of the "
-      "perpendicular are biased, and inverse_range is better. Not within a few decimetres of "
-      "the sensor.";
+      "For the shortest time with a covariance that holds. Where the noise of the bearings is as "
+      "large as their spacing, lines far from the foot of the perpendicular are biased; propagated "
+      "counts that, and inverse_range is up to a tenth more accurate. Not within a few decimetres "
+      "of the sensor.";
 
   using Parameters = CovarianceParameters;
 
   Wctls() = default;
-  explicit Wctls(const Parameters&) {}
+  explicit Wctls(const Parameters& parameters) : parameters_(parameters) {}
 
   FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+
+ private:
+  Parameters parameters_;
 };
 
 }  // namespace quoin

@@ -7,7 +7,10 @@
 namespace quoin {
 
 FitResult Wtls::operator()(const PointsView& points, const SensorModel& sensor) const {
-  return fit_inverse_range(points, sensor, parameters_.covariance == CovarianceMode::as_published);
+  return fit_inverse_range(points, sensor,
+                           parameters_.covariance == CovarianceMode::as_published
+                               ? CountedErrors::common
+                               : CountedErrors::independent_and_bias);
 }
 
 }  // namespace quoin

@@ -34,6 +34,8 @@ struct Command {
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
+[[nodiscard]] Command add_swap(CLI::App& app);
+[[nodiscard]] Command add_set(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

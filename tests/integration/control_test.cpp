@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
@@ -49,8 +50,10 @@ class Control : public testing::Test {
     }
     EXPECT_TRUE(requests_.write(request));
     msg::ControlReply reply;
-    EXPECT_TRUE(
-        tests::eventually([&] { return replies_.take(reply) && reply.request() == number_; }));
+    EXPECT_TRUE(tests::eventually([&] {
+      recorder_.poll();  // which keeps the last few only
+      return replies_.take(reply) && reply.request() == number_;
+    }));
     return reply;
   }
 
@@ -96,6 +99,78 @@ TEST_F(Control, ARefusedRequestChangesNothing) {
   EXPECT_TRUE(now.accepted());
   EXPECT_EQ(now.method(), "wctls");
   EXPECT_TRUE(now.parameters().empty());
+}
+
+TEST_F(Control, TheCommandLineSwapsAndSetsAndTellsTheFirstScan) {
+  const auto command = [this](std::vector<std::string> arguments, int exit_code) {
+    arguments.insert(arguments.end(), {"--deployment", "FILE", "--json"});
+    Process process = deployment_.quoin(std::move(arguments));
+    EXPECT_TRUE(tests::eventually([&] {
+      recorder_.poll();
+      return process.wait(0ms).has_value();
+    }));
+    EXPECT_EQ(process.wait(0ms), exit_code) << process.errors();
+    return nlohmann::json::parse(process.output());
+  };
+  const nlohmann::json swapped = command({"swap", "wctls", "utls"}, 0);
+  EXPECT_EQ(swapped["method"], "utls");
+  const nlohmann::json set = command({"set", "wctls", "covariance=as_published"}, 0);
+  EXPECT_EQ(set["method"], "utls");
+  EXPECT_EQ(set["parameters"]["covariance"], "as_published");
+  const nlohmann::json refused = command({"swap", "wctls", "wclts"}, 2);
+  EXPECT_EQ(refused["accepted"], false);
+  EXPECT_THAT(refused["detail"].get<std::string>(), HasSubstr("did you mean 'wctls'?"));
+  ASSERT_TRUE(recorder_.wait_for(recorder_.poll() + 10));
+  const auto first_swapped = swapped["first_sequence_number"].get<std::uint64_t>();
+  const auto first_set = set["first_sequence_number"].get<std::uint64_t>();
+  EXPECT_LT(first_swapped, first_set);
+  for (const msg::Corners& message : recorder_.messages()) {
+    const std::uint64_t number = message.header().sequence_number();
+    EXPECT_EQ(message.header().trace()[2].method(), number >= first_swapped ? "utls" : "wctls");
+    EXPECT_EQ(message.covariance_mode(), number >= first_set ? "as_published" : "propagated");
+  }
+  EXPECT_EQ(recorder_.accounting().lost(), 0U);
+}
+
+TEST_F(Control, AServiceThatIsNotThereIsNamed) {
+  Process process = deployment_.quoin({"swap", "walls_2", "hough", "--deployment", "FILE"});
+  EXPECT_EQ(process.wait(20s), 2);
+  EXPECT_THAT(process.errors(), HasSubstr("walls_2"));
+  Process source =
+      deployment_.quoin({"swap", "front", "hough", "--deployment", "FILE", "--wait", "1"});
+  EXPECT_EQ(source.wait(20s), 1);
+  EXPECT_THAT(source.errors(), HasSubstr("no service 'front'"));
+}
+
+// Each is built while scans go on; none of them may cost one.
+TEST_F(Control, AHundredSwapsInARowLoseNoScan) {
+  std::vector<std::pair<std::uint64_t, std::string>> firsts;
+  for (int k = 0; k < 100; ++k) {
+    const std::string method = k % 2 == 0 ? "inverse_range" : "utls";
+    const msg::ControlReply reply = ask(msg::ControlAction::CONTROL_SWAP_METHOD, method, {});
+    ASSERT_TRUE(reply.accepted()) << reply.detail();
+    firsts.emplace_back(reply.first_sequence_number(), method);
+  }
+  const std::uint64_t last = firsts.back().first;
+  ASSERT_TRUE(tests::eventually([&] {
+    recorder_.poll();
+    return recorder_.messages().back().header().sequence_number() > last;
+  }));
+  std::uint64_t before = 0;
+  for (const msg::Corners& message : recorder_.messages()) {
+    const std::uint64_t number = message.header().sequence_number();
+    if (&message != recorder_.messages().data()) {
+      EXPECT_EQ(number, before + 1);
+    }
+    before = number;
+    std::string expected = "wctls";
+    for (const auto& [first, method] : firsts) {
+      if (number >= first) expected = method;
+    }
+    EXPECT_EQ(message.header().trace()[2].method(), expected) << number;
+  }
+  EXPECT_EQ(recorder_.accounting().lost(), 0U);
+  EXPECT_EQ(recorder_.accounting().duplicates(), 0U);
 }
 
 }  // namespace

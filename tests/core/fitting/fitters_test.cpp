@@ -48,12 +48,15 @@ TEST_P(EveryFitter, FindsExactLinesInAllDirections) {
 TEST_P(EveryFitter, PropagatesExactDerivatives) {
   const Points p = first_wall();
   const Fitter fitter = make_fitter(GetParam());
-  const FitResult fit = fitter(p, noisy);
-  const Eigen::Matrix2d expected = numerical_covariance(fitter, p, noisy, noisy);
   if (!is_efficient(GetParam())) {
-    EXPECT_THAT(fit.estimate.covariance, CovarianceNear(expected, 1e-7));
+    // So little noise that the bias which some count besides is below rounding.
+    const SensorModel faint{1e-6 * noisy.range_stddev, 1e-6 * noisy.bearing_stddev, 0.0};
+    EXPECT_THAT(fitter(p, faint).estimate.covariance,
+                CovarianceNear(numerical_covariance(fitter, p, faint, faint), 1e-7));
     return;
   }
+  const FitResult fit = fitter(p, noisy);
+  const Eigen::Matrix2d expected = numerical_covariance(fitter, p, noisy, noisy);
   // They report the bound at their line instead, with noisy bearings, ranges or weights of the
   // starting line in it: some per cent at a range noise of 3 % and averaged over 60 points.
   const Eigen::Matrix2d bound = cramer_rao_bound(fit.estimate.line, p.bearing, noisy);

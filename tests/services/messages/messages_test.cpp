@@ -39,11 +39,12 @@ TEST(Messages, LinesGoThereAndBack) {
   // The wall x = 2 seen at y = -1 and y = 1.
   const std::vector<double> range{std::sqrt(5.0), std::sqrt(5.0)};
   const std::vector<double> bearing{std::atan2(-1.0, 2.0), std::atan2(1.0, 2.0)};
+  const std::vector<double> inverse_range{1.0 / range[0], 1.0 / range[1]};
   const std::vector<double> cosine{2.0 / range[0], 2.0 / range[1]};
   const std::vector<double> sine{-1.0 / range[0], 1.0 / range[1]};
   const std::vector<double> x{2.0, 2.0};
   const std::vector<double> y{-1.0, 1.0};
-  const PointsView points{range, bearing, cosine, sine, x, y};
+  const PointsView points{range, bearing, inverse_range, cosine, sine, x, y};
   LineEstimate estimate{{0.0, 2.0}, Eigen::Matrix2d::Zero()};
   estimate.covariance << 1e-4, 2e-5, 2e-5, 3e-4;
 

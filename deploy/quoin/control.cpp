@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <idl/Control.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/quoin/commands.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/reader.hpp"
+#include "services/runtime/writer.hpp"
+
+namespace quoin::deploy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+struct ControlOptions {
+  std::string service;
+  std::string method;
+  std::vector<std::string> settings;  // name=value
+  std::string file;
+  int domain = 0;
+  std::string name_space = "quoin";
+  double wait = 5.0;  // [s]
+  bool json = false;
+};
+
+/// Talks to one service of a running deployment.
+class Requester {
+ public:
+  Requester(int domain, const std::string& name_space, std::string service)
+      : service_(std::move(service)),
+        name_("quoin_" + std::to_string(::getpid())),
+        participant_({domain, name_space + "/" + name_}),
+        writer_(participant_, control_request_topic(name_space), runtime::QosPreset::control),
+        reader_(participant_, control_reply_topic(name_space), runtime::QosPreset::control) {
+    wait_set_.add(reader_);
+  }
+
+  /// True once the service has answered anything: from then on no request is lost.
+  [[nodiscard]] bool reach(Clock::time_point deadline) {
+    while (Clock::now() < deadline) {
+      msg::ControlRequest question;
+      question.action(msg::ControlAction::CONTROL_DESCRIBE);
+      if (ask(question, std::min(deadline, Clock::now() + milliseconds(200)))) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::optional<msg::ControlReply> ask(msg::ControlRequest& request,
+                                                     Clock::time_point deadline) {
+    request.service(service_);
+    request.requester(name_);
+    request.request(++number_);
+    if (!writer_.write(request)) return std::nullopt;
+    msg::ControlReply reply;
+    while (Clock::now() < deadline) {
+      wait_set_.wait(milliseconds(20));
+      while (reader_.take(reply)) {
+        const bool is_mine = reply.requester() == name_ && reply.service() == service_;
+        if (is_mine && reply.request() == number_) return reply;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::string service_;
+  std::string name_;
+  runtime::Participant participant_;
+  runtime::Writer<msg::ControlRequest> writer_;
+  runtime::Reader<msg::ControlReply> reader_;
+  runtime::WaitSet wait_set_;
+  std::uint64_t number_ = 0;
+};
+
+void add_settings(const std::vector<std::string>& settings, msg::ControlRequest& request) {
+  for (const std::string& text : settings) {
+    const std::size_t equals = text.find('=');
+    msg::ParameterSetting& setting = request.parameters().emplace_back();
+    setting.name(text.substr(0, equals));
+    setting.value(text.substr(equals + 1));
+  }
+}
+
+nlohmann::ordered_json to_json(const msg::ControlReply& reply) {
+  auto parameters = nlohmann::ordered_json::object();
+  for (const msg::ParameterSetting& setting : reply.parameters()) {
+    parameters[setting.name()] = setting.value();
+  }
+  return {{"service", reply.service()}, {"accepted", reply.accepted()},
+          {"detail", reply.detail()},   {"method", reply.method()},
+          {"parameters", parameters},   {"first_sequence_number", reply.first_sequence_number()}};
+}
+
+void print(const msg::ControlReply& reply) {
+  if (!reply.accepted()) {
+    std::cerr << reply.service() << ": refused: " << reply.detail() << "; nothing was changed\n";
+    return;
+  }
+  std::cout << reply.service() << ": " << reply.method();
+  for (const msg::ParameterSetting& setting : reply.parameters()) {
+    std::cout << ' ' << setting.name() << '=' << setting.value();
+  }
+  std::cout << " from scan " << reply.first_sequence_number() << " on\n";
+}
+
+int run(const ControlOptions& options, msg::ControlAction action) {
+  int domain = options.domain;
+  std::string name_space = options.name_space;
+  if (!options.file.empty()) {
+    const Deployment deployment = load_deployment(options.file);
+    (void)deployment.service(options.service);  // a name that is none is told at once
+    domain = deployment.domain;
+    name_space = deployment.name_space;
+  }
+  Requester requester(domain, name_space, options.service);
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(options.wait));
+  if (!requester.reach(deadline)) {
+    std::cerr << "no service '" << options.service << "' of namespace '" << name_space
+              << "' answers in domain " << domain
+              << "; is it running, and does it have methods? (quoin status shows who is there)\n";
+    return exit_failure;
+  }
+  msg::ControlRequest request;
+  request.action(action);
+  request.method(options.method);
+  add_settings(options.settings, request);
+  const auto reply = requester.ask(request, deadline);
+  if (!reply) {
+    std::cerr << options.service << ": no answer within " << options.wait
+              << " s; quoin status tells which method it has\n";
+    return exit_failure;
+  }
+  if (options.json) {
+    std::cout << to_json(*reply).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
+  } else {
+    print(*reply);
+  }
+  return reply->accepted() ? exit_ok : exit_configuration;
+}
+
+void add_options(CLI::App& line, ControlOptions& options, bool settings_required) {
+  CLI::Option* settings = line.add_option("settings", options.settings,
+                                          "Parameters as name=value, with or without unit")
+                              ->check([](const std::string& text) {
+                                const std::size_t equals = text.find('=');
+                                return equals == std::string::npos || equals == 0
+                                           ? "'" + text + "' is not name=value"
+                                           : std::string();
+                              });
+  settings->required(settings_required);
+  CLI::Option* file = line.add_option("--deployment", options.file,
+                                      "Deployment file that says domain and namespace");
+  line.add_option("--domain", options.domain, "DDS domain")
+      ->check(CLI::Range(0, 232))
+      ->excludes(file);
+  line.add_option("--namespace", options.name_space, "Namespace of the topics")->excludes(file);
+  line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
+      ->capture_default_str()
+      ->check(more_than_zero());
+  line.add_flag("--json", options.json, "The answer as a JSON object");
+}
+
+}  // namespace
+
+Command add_swap(CLI::App& app) {
+  CLI::App* line =
+      app.add_subcommand("swap", "Exchange the method of a running service between two scans");
+  const auto options = std::make_shared<ControlOptions>();
+  line->add_option("service", options->service, "Name of the service")->required();
+  line->add_option("method", options->method, "Its new method")->required();
+  add_options(*line, *options, false);
+  return {line, [options] { return run(*options, msg::ControlAction::CONTROL_SWAP_METHOD); }};
+}
+
+Command add_set(CLI::App& app) {
+  CLI::App* line =
+      app.add_subcommand("set", "Set parameters of a running service between two scans");
+  const auto options = std::make_shared<ControlOptions>();
+  line->add_option("service", options->service, "Name of the service")->required();
+  add_options(*line, *options, true);
+  return {line, [options] { return run(*options, msg::ControlAction::CONTROL_SET_PARAMETERS); }};
+}
+
+}  // namespace quoin::deploy
