@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Quoin authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Runs all benchmarks of a built tree and prints their figures: a table, or with --json one JSON object.
+# Runs the benchmarks of a built tree and prints their figures: a table, or with --json one JSON object of those
+# of extraction and chain (rplidar_bridge_benchmark has a --json of its own).
 # Every figure is a ratio of two things measured in the same run, or stands beside what it is measured against.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -26,3 +27,8 @@ echo "extraction: one thread, 920 points" >&2
 "$bin/extraction_benchmark" --benchmark_out="$work/extraction.json" --benchmark_out_format=json \
   --benchmark_repetitions=9 --benchmark_report_aggregates_only=true >"$work/extraction.txt" 2>&1
 "$bin/chain_benchmark" --extraction "$work/extraction.json" --format "$format"
+if [[ $format == table ]]; then
+  echo "RPLIDAR decoder and bridge" >&2
+  "$bin/rplidar_decoder_benchmark"
+  "$bin/rplidar_bridge_benchmark"
+fi

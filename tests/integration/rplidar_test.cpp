@@ -16,7 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using sensor_bridge::rplidar::EmulatorRun;
-using sensor_bridge::rplidar::EmulatorSettings;
 using tests::CornerRecorder;
 using tests::Process;
 using tests::StatusRecorder;
@@ -84,9 +83,7 @@ TEST(Rplidar, AnEmulatedDeviceIsSeenAsCornersAndFoundAgainAfterItWasUnplugged) {
 }
 
 TEST(Rplidar, WhatTheDeviceCannotDoEndsTheBridgeAsAnInputError) {
-  EmulatorSettings settings = sensor_bridge::rplidar::quick_emulator();
-  settings.connection = "tcp";
-  const EmulatorRun emulator(settings);
+  const EmulatorRun emulator(sensor_bridge::rplidar::quick_emulator("tcp"));
   const TestDeployment deployment("  - {name: front, kind: rplidar, parameters: {serial_port: \"" +
                                   to_text(emulator.endpoint()) + "\", scan_mode: Turbo}}\n");
   Process front = deployment.start("front");
@@ -104,14 +101,8 @@ class LidarCommand : public testing::Test {
     return nlohmann::json::parse(process.output());
   }
 
-  static EmulatorSettings settings() {
-    EmulatorSettings settings = sensor_bridge::rplidar::quick_emulator();
-    settings.connection = "tcp";
-    return settings;
-  }
-
   tests::TemporaryDirectory directory_;
-  EmulatorRun emulator_{settings()};
+  EmulatorRun emulator_{sensor_bridge::rplidar::quick_emulator("tcp")};
 };
 
 TEST_F(LidarCommand, ProbeTellsWhoItIsAndHowFastItMeasures) {

@@ -30,14 +30,8 @@ class WaitingSource : public quoin::testing::RecordingSource {
   }
 };
 
-EmulatorSettings on_tcp() {
-  EmulatorSettings settings = quick_emulator();
-  settings.connection = "tcp";
-  return settings;
-}
-
 TEST(RplidarSource, PublishesRevolutionsWithTrueBearingsAndTheFactsOfTheDevice) {
-  const EmulatorRun emulator(on_tcp());
+  const EmulatorRun emulator(quick_emulator("tcp"));
   WaitingSource source;
   source.stop_after = 3;
   open_rplidar(source_config({{"serial_port", to_text(emulator.endpoint())},
@@ -69,7 +63,7 @@ TEST(RplidarSource, PublishesRevolutionsWithTrueBearingsAndTheFactsOfTheDevice) 
 }
 
 TEST(RplidarSource, TellsOfTroubleAndOfItsEnd) {
-  EmulatorRun emulator(on_tcp());
+  EmulatorRun emulator(quick_emulator("tcp"));
   WaitingSource source;
   source.stop_after = 8;
   const std::string endpoint = to_text(emulator.endpoint());
@@ -85,7 +79,7 @@ TEST(RplidarSource, TellsOfTroubleAndOfItsEnd) {
 }
 
 TEST(RplidarSource, WhatTheDeviceCannotDoEndsItWithTheChoiceThereIs) {
-  EmulatorRun emulator(on_tcp());
+  EmulatorRun emulator(quick_emulator("tcp"));
   const auto run = [&](ParameterSettings settings) {
     WaitingSource source;
     settings.push_back({"serial_port", to_text(emulator.endpoint())});

@@ -41,16 +41,6 @@ class ClientTest : public ::testing::Test {
     script_.answer = [bytes](const Request&) { return bytes; };
   }
 
-  template <class Call>
-  Diagnosis diagnosis_of(Call&& call) {
-    try {
-      call();
-    } catch (const DeviceError& error) {
-      return error.diagnosis();
-    }
-    return {};
-  }
-
   Script script_;
   ScriptedTransport transport_{script_};
   Interruption interruption_ = uninterrupted();
@@ -79,7 +69,7 @@ TEST_F(ClientTest, DoesNotTakeTheBeginOfAScanForAnAnswer) {
 }
 
 TEST_F(ClientTest, TellsThatNothingArrives) {
-  const Diagnosis diagnosis = diagnosis_of([&] { (void)client_->health(); });
+  const Diagnosis diagnosis = thrown_diagnosis([&] { (void)client_->health(); });
   EXPECT_EQ(diagnosis.finding, Finding::no_bytes);
   EXPECT_THAT(to_text(diagnosis), HasSubstr("/dev/lidar: no answer"));
   EXPECT_THAT(to_text(diagnosis), HasSubstr("power"));
@@ -89,12 +79,12 @@ TEST_F(ClientTest, RecognizesItsOwnWords) {
   script_.answer = [](const Request& request) {
     return Bytes(request.bytes().begin(), request.bytes().end());
   };
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->info(30ms); }).finding, Finding::echo);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->info(30ms); }).finding, Finding::echo);
 }
 
 TEST_F(ClientTest, TellsWhatItHearsInsteadOfAnAnswer) {
   answer_with({'$', 'G', 'P'});
-  const Diagnosis diagnosis = diagnosis_of([&] { (void)client_->info(30ms); });
+  const Diagnosis diagnosis = thrown_diagnosis([&] { (void)client_->info(30ms); });
   EXPECT_EQ(diagnosis.finding, Finding::garbage);
   EXPECT_THAT(diagnosis.text, HasSubstr("24 47 50"));
 }
@@ -102,8 +92,8 @@ TEST_F(ClientTest, TellsWhatItHearsInsteadOfAnAnswer) {
 TEST_F(ClientTest, GivesUpOnADeviceThatIsNeverQuiet) {
   script_.stream = [] { return Bytes(84, 0x55); };
   EXPECT_FALSE(client_->stop());
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->info(30ms); }).finding, Finding::garbage);
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->start_scan({}); }).finding,
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->info(30ms); }).finding, Finding::garbage);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->start_scan({}); }).finding,
             Finding::scan_not_started);
 }
 
@@ -111,21 +101,21 @@ TEST_F(ClientTest, TellsThatAnAnswerIsOfAWrongLength) {
   Bytes bytes = info_answer(s1_info());
   bytes[2] = 23;
   answer_with(bytes);
-  const Diagnosis diagnosis = diagnosis_of([&] { (void)client_->info(30ms); });
+  const Diagnosis diagnosis = thrown_diagnosis([&] { (void)client_->info(30ms); });
   EXPECT_EQ(diagnosis.finding, Finding::wrong_length);
   EXPECT_THAT(diagnosis.text, HasSubstr("23 bytes"));
 
   bytes = info_answer(s1_info());
   bytes.pop_back();
   answer_with(bytes);
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->info(30ms); }).finding, Finding::wrong_length);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->info(30ms); }).finding, Finding::wrong_length);
 }
 
 TEST_F(ClientTest, RefusesValuesThatCannotBe) {
   answer_with(answer(AnswerType::health, Bytes{7, 0, 0}));
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->health(); }).finding, Finding::wrong_value);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->health(); }).finding, Finding::wrong_value);
   answer_with(answer(AnswerType::sample_rate, Bytes{0, 0, 0, 0}));
-  EXPECT_EQ(diagnosis_of([&] { (void)client_->sample_times(); }).finding, Finding::wrong_value);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->sample_times(); }).finding, Finding::wrong_value);
 }
 
 TEST_F(ClientTest, StopsAndReadsOnUntilTheDeviceIsQuiet) {

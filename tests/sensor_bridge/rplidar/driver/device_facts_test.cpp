@@ -59,16 +59,6 @@ class FactsTest : public ::testing::Test {
     return ask_facts(client, "/dev/lidar", 256000, info);
   }
 
-  template <class Call>
-  Diagnosis diagnosis_of(Call&& call) {
-    try {
-      call();
-    } catch (const DeviceError& error) {
-      return error.diagnosis();
-    }
-    return {};
-  }
-
   TimeOuts time_outs_ = short_time_outs();
   Script script_;
   std::map<std::pair<Key, int>, Bytes> values_;
@@ -110,18 +100,18 @@ TEST_F(FactsTest, SilenceAboutTheMotorIsNoFault) {
 TEST_F(FactsTest, ValuesThatCannotBeAreRefused) {
   values_[{Key::mode_sample_time, 1}] = {0, 0, 0, 0};
   EXPECT_EQ(plan_scan(ask(), "slow", 0.0).mode.id, 0);  // of no interest then
-  EXPECT_EQ(diagnosis_of([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
+  EXPECT_EQ(thrown_diagnosis([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
             Finding::wrong_value);
   values_[{Key::mode_sample_time, 1}] = {0, 108, 0, 0};
   values_[{Key::mode_range, 1}] = {0, 0, 0, 0};
-  EXPECT_EQ(diagnosis_of([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
+  EXPECT_EQ(thrown_diagnosis([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
             Finding::wrong_value);
   values_[{Key::mode_count, 0}] = {0, 0};
-  EXPECT_EQ(diagnosis_of([&] { (void)ask(); }).finding, Finding::wrong_value);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)ask(); }).finding, Finding::wrong_value);
   values_[{Key::mode_count, 0}] = {0xFF, 0xFF};
-  EXPECT_EQ(diagnosis_of([&] { (void)ask(); }).finding, Finding::wrong_value);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)ask(); }).finding, Finding::wrong_value);
   values_[{Key::mode_count, 0}] = {};
-  EXPECT_EQ(diagnosis_of([&] { (void)ask(); }).finding, Finding::wrong_value);
+  EXPECT_EQ(thrown_diagnosis([&] { (void)ask(); }).finding, Finding::wrong_value);
 }
 
 TEST_F(FactsTest, SettingsBeyondTheDeviceAreRefused) {
@@ -139,7 +129,7 @@ TEST_F(FactsTest, DevicesWithoutAConfigurationTellTheirSampleTimes) {
   EXPECT_EQ(plan_scan(facts, "", 0.0).mode.format, SampleFormat::express);
   EXPECT_EQ(plan_scan(facts, "standard", 0.0).mode.format, SampleFormat::standard);
   EXPECT_FALSE(plan_scan(facts, "", 0.0).speed);
-  EXPECT_THAT(to_text(diagnosis_of([&] { (void)plan_scan(facts, "", 10.0); })),
+  EXPECT_THAT(to_text(thrown_diagnosis([&] { (void)plan_scan(facts, "", 10.0); })),
               HasSubstr("the speed of A1M8 cannot be set"));
 }
 

@@ -11,9 +11,10 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// An S1 that spins up and resets quickly.
-[[nodiscard]] inline EmulatorSettings quick_emulator() {
+/// An S1 that spins up and resets quickly, on "pty", "tcp" or "udp".
+[[nodiscard]] inline EmulatorSettings quick_emulator(const std::string& connection = "pty") {
   EmulatorSettings settings;
+  settings.connection = connection;
   settings.spin_up_time = 0.05;
   settings.reset_time = 0.05;
   settings.range_stddev = 0.0;

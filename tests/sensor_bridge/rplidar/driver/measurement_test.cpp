@@ -28,14 +28,8 @@ DriverSettings settings_for(const EmulatorRun& emulator) {
   return settings;
 }
 
-EmulatorSettings on_tcp() {
-  EmulatorSettings settings = quick_emulator();
-  settings.connection = "tcp";
-  return settings;
-}
-
 TEST(Measure, TellsTheRatesAndLetsTheMotorStop) {
-  const EmulatorRun emulator(on_tcp());
+  const EmulatorRun emulator(quick_emulator("tcp"));
   DriverSettings settings = settings_for(emulator);
   settings.scan_frequency = 12.0;
   const Measurement measurement = measure(settings, 4, 20s, sleep_until);
@@ -51,7 +45,7 @@ TEST(Measure, TellsTheRatesAndLetsTheMotorStop) {
 }
 
 TEST(Measure, EndsInTimeAndTellsWhy) {
-  EmulatorRun emulator(on_tcp());
+  EmulatorRun emulator(quick_emulator("tcp"));
   emulator.apply("silence");
   const Measurement silent = measure(settings_for(emulator), 4, 900ms, sleep_until);
   EXPECT_EQ(silent.revolutions, 0U);

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "sensor_bridge/rplidar/driver/diagnosis.hpp"
 #include "sensor_bridge/rplidar/protocol/configuration.hpp"
 #include "sensor_bridge/rplidar/protocol/descriptor.hpp"
 #include "sensor_bridge/rplidar/protocol/device_info.hpp"
@@ -100,6 +101,17 @@ class ScriptedTransport : public Transport {
 }
 [[nodiscard]] inline Bytes health_answer(Health health) {
   return answer(AnswerType::health, encode(DeviceHealth{health, 0}));
+}
+
+/// Of the DeviceError that `call` throws; fine when it throws none.
+template <class Call>
+[[nodiscard]] Diagnosis thrown_diagnosis(Call&& call) {
+  try {
+    call();
+  } catch (const DeviceError& error) {
+    return error.diagnosis();
+  }
+  return {};
 }
 
 }  // namespace quoin::sensor_bridge::rplidar
