@@ -31,6 +31,7 @@ done
 
 step() { printf '\n== %s\n' "$*"; }
 jobs=$(nproc)
+tests_at_once=$((jobs + 1))  # some of them wait most of the time
 
 step "packages"
 deploy/install_packages.sh
@@ -42,13 +43,13 @@ cmake --build --preset release -j "$jobs"
 $build_only && exit 0
 
 step "all tests"
-ctest --test-dir build --output-on-failure -j "$jobs"
+ctest --test-dir build --output-on-failure -j "$tests_at_once"
 
 if $sanitizers; then
   step "unit tests with sanitizers"
   cmake --preset asan
   cmake --build --preset asan -j "$jobs"
-  UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$jobs"
+  UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$tests_at_once"
 fi
 
 if $fuzzing; then

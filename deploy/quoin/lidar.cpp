@@ -71,20 +71,16 @@ LidarReport examine(const Endpoint& endpoint, const LidarOptions& options,
   return report;
 }
 
-/// Nothing when there is no device to look at or the user has had enough.
+/// Nothing when there is no device to look at. Throws Stopped when the user has had enough.
 std::vector<LidarReport> examine_all(const LidarOptions& options) {
   runtime::StopSignal stop;
   const Interruption interruption = [&stop](std::chrono::steady_clock::time_point time) {
     return stop.wait_until(time);
   };
   std::vector<LidarReport> reports;
-  try {
-    for (const Endpoint& endpoint : endpoints(options)) {
-      if (!options.json) std::cerr << "looking at " << to_text(endpoint) << " ...\n";
-      reports.push_back(examine(endpoint, options, interruption));
-    }
-  } catch (const Stopped&) {
-    std::cerr << "stopped\n";
+  for (const Endpoint& endpoint : endpoints(options)) {
+    if (!options.json) std::cerr << "looking at " << to_text(endpoint) << " ...\n";
+    reports.push_back(examine(endpoint, options, interruption));
   }
   return reports;
 }
@@ -159,12 +155,15 @@ int run_list(bool json) {
 
 /// An endpoint that cannot be read is wrong usage.
 template <class Run>
-int with_usage_errors(const Run& run) {
+int with_exit_codes(const Run& run) {
   try {
     return run();
   } catch (const EndpointError& error) {
     std::cerr << "quoin lidar: " << error.what() << '\n';
     return exit_configuration;
+  } catch (const Stopped&) {
+    std::cerr << "stopped\n";
+    return exit_failure;
   }
 }
 
@@ -185,7 +184,7 @@ Command add_lidar(CLI::App& app) {
   add_options(*doctor, *options);
   return {line, [=] {
             if (list->parsed()) return run_list(options->json);
-            return with_usage_errors(
+            return with_exit_codes(
                 [&] { return doctor->parsed() ? run_doctor(*options) : run_probe(*options); });
           }};
 }
