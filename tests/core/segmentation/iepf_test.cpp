@@ -89,8 +89,8 @@ TEST(Iepf, BreaksAtGapsOfTheBreakpointAngle) {
   const Line wall{0.0, 2.0};
   Points left = exact_wall_points(wall, -0.5, -0.1, 60);
   const Points right = exact_wall_points(wall, 0.1, 0.5, 60);  // 0.2 rad = 11.5 deg away
-  for (auto member :
-       {&Points::range, &Points::bearing, &Points::cosine, &Points::sine, &Points::x, &Points::y}) {
+  for (auto member : {&Points::range, &Points::bearing, &Points::inverse_range, &Points::cosine,
+                      &Points::sine, &Points::x, &Points::y}) {
     (left.*member).insert((left.*member).end(), (right.*member).begin(), (right.*member).end());
   }
   std::vector<Segment> segments;
