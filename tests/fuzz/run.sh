@@ -32,7 +32,7 @@ compiler=$(command -v clang++ || command -v clang++-14) ||
   { echo "clang++ is not there; install clang and libclang-rt-dev" >&2; exit 2; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cmake -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
   -DQUOIN_FUZZ=ON -DQUOIN_DDS=OFF -DQUOIN_TESTS=OFF -DQUOIN_BENCHMARKS=OFF >"$work/build.txt" 2>&1 &&
   cmake --build "$build" -j "$(nproc)" --target fuzz_sample_decoder fuzz_descriptor >>"$work/build.txt" 2>&1 ||
   { cat "$work/build.txt" >&2; exit 2; }
