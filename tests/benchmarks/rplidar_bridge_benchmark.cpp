@@ -42,7 +42,8 @@ using sensor_bridge::rplidar::PseudoTerminal;
 class TimedDevice {
  public:
   explicit TimedDevice(const std::string& link)
-      : terminal_(link, {}), device_({}, *built_in_world("domestic_room"), Clock::now()) {
+      : terminal_(link, [](const std::string&) {}),
+        device_({}, *built_in_world("domestic_room"), Clock::now()) {
     terminal_.plug_in();
     thread_ = std::thread([this] { run(); });
   }

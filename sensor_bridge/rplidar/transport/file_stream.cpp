@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A serial line brings a byte each 40 us; to wake for each would cost more than all the decoding.
-constexpr std::chrono::milliseconds gathering_time{4};
+constexpr std::chrono::microseconds gathering_time{500};
 
 }  // namespace
 

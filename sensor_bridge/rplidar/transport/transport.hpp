@@ -25,7 +25,7 @@ class Transport {
   virtual ~Transport() = default;
 
   /// Reads what has arrived, at least one byte; waits for it until the deadline at most and returns
-  /// 0 then. Bytes that come in a trickle are let gather for 4 ms from one call to the next.
+  /// 0 then. Bytes that come in a trickle are let gather for 0.5 ms from one call to the next.
   [[nodiscard]] virtual std::size_t read(std::span<std::uint8_t> bytes, Deadline deadline) = 0;
 
   /// Hands all bytes over; the error is `timed_out` when that takes longer than to the deadline.
