@@ -28,8 +28,7 @@ struct ControlOptions {
   std::string method;
   std::vector<std::string> settings;  // name=value
   std::string file;
-  int domain = 0;
-  std::string name_space = "quoin";
+  NetworkOptions network;
   double wait = 5.0;  // [s]
   bool json = false;
 };
@@ -115,8 +114,7 @@ void print(const msg::ControlReply& reply) {
 }
 
 int run(const ControlOptions& options, msg::ControlAction action) {
-  int domain = options.domain;
-  std::string name_space = options.name_space;
+  auto [domain, name_space] = options.network;
   if (!options.file.empty()) {
     const Deployment deployment = load_deployment(options.file);
     (void)deployment.service(options.service);  // a name that is none is told at once
@@ -163,10 +161,7 @@ void add_options(CLI::App& line, ControlOptions& options, bool settings_required
   settings->required(settings_required);
   CLI::Option* file = line.add_option("--deployment", options.file,
                                       "Deployment file that says domain and namespace");
-  line.add_option("--domain", options.domain, "DDS domain")
-      ->check(CLI::Range(0, 232))
-      ->excludes(file);
-  line.add_option("--namespace", options.name_space, "Namespace of the topics")->excludes(file);
+  add_network_options(line, options.network, file);
   line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
       ->capture_default_str()
       ->check(more_than_zero());

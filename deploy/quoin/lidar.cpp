@@ -46,9 +46,8 @@ void add_options(CLI::App& line, LidarOptions& options) {
 std::vector<Endpoint> endpoints(const LidarOptions& options) {
   if (!options.port.empty()) return {find_endpoint(options.port)};
   std::vector<Endpoint> found;
-  for (const SerialPortEntry& port : list_serial_ports()) {
-    if (!port.usb || !is_usual_adapter(*port.usb)) continue;
-    found.push_back(parse_endpoint(port.link.empty() ? port.device : port.link));
+  for (const SerialPortEntry& port : usual_adapters(list_serial_ports())) {
+    found.push_back(parse_endpoint(port.name()));
   }
   return found;
 }

@@ -27,8 +27,7 @@ using std::chrono::milliseconds;
 
 struct StatusOptions {
   std::string file;
-  int domain = 0;
-  std::string name_space = "quoin";
+  NetworkOptions network;
   double wait = 2.0;  // [s]
   bool json = false;
 };
@@ -134,8 +133,8 @@ void print_json(const DeploymentFigures& figures, const Heartbeats& heartbeats) 
 int run(const StatusOptions& options) {
   std::optional<Deployment> deployment;
   if (!options.file.empty()) deployment = load_deployment(options.file);
-  const int domain = deployment ? deployment->domain : options.domain;
-  const std::string& name_space = deployment ? deployment->name_space : options.name_space;
+  const int domain = deployment ? deployment->domain : options.network.domain;
+  const std::string& name_space = deployment ? deployment->name_space : options.network.name_space;
   const Heartbeats heartbeats = collect(domain, name_space, options.wait, deployment);
   const DeploymentFigures figures = figures_of(heartbeats, deployment);
   if (options.json) {
@@ -162,10 +161,7 @@ Command add_status(CLI::App& app) {
       "Show what the services of a running deployment report; fails when one is silent or failed");
   const auto options = std::make_shared<StatusOptions>();
   CLI::Option* file = line->add_option("file", options->file, "Deployment file (YAML)");
-  line->add_option("--domain", options->domain, "DDS domain")
-      ->check(CLI::Range(0, 232))
-      ->excludes(file);
-  line->add_option("--namespace", options->name_space, "Namespace of the topics")->excludes(file);
+  add_network_options(*line, options->network, file);
   line->add_option("--wait", options->wait, "How long to listen [s]")
       ->capture_default_str()
       ->check(more_than_zero());

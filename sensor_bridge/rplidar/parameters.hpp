@@ -23,7 +23,7 @@ struct RplidarParameters {
   double range_stddev = 0.010;      ///< [m]
   double bearing_stddev = 0.00197;  ///< [rad]
   double range_bias_stddev = 0.0;   ///< [m]
-  std::string frame_id = "laser";
+  std::string frame = "laser";
 
   static constexpr auto fields() {
     using P = RplidarParameters;
@@ -49,7 +49,7 @@ struct RplidarParameters {
               "noise of each bearing, declared"),
         field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
               "error common to all ranges, declared"),
-        field(&P::frame_id, "frame_id", "frame of the sensor (REP-105)")};
+        field(&P::frame, "frame_id", "frame of the sensor (REP-105)")};
   }
 };
 

@@ -49,21 +49,20 @@ class Bridge final : public DriverListener {
   }
 
   void state_changed(DriverState state) override {
-    state_ = state;
     tell("Driver State", std::string(name_of(state)));
   }
 
   void connected(const DeviceFacts& facts, const ScanPlan& plan) override {
     if (facts.baud_rate != 0) tell("Serial Baud", std::to_string(facts.baud_rate));
-    tell("Product Name", "RPLIDAR " + model_text(facts.info));
+    const std::string product = "RPLIDAR " + model_text(facts.info);
+    tell("Product Name", product);
     tell("Firmware Version", firmware_text(facts.info));
     tell("Hardware Version", std::to_string(facts.info.hardware));
     tell("Device ID", serial_number_text(facts.info));
     tell("Health", std::string(name_of(facts.health.status)));
     tell_mode(plan.mode);
-    device_ = "RPLIDAR " + model_text(facts.info) + " " + serial_number_text(facts.info) + " at " +
-              facts.endpoint;
-    source_.settle("connected to " + device_ + ", scan mode " + plan.mode.name);
+    source_.settle("connected to " + product + " " + serial_number_text(facts.info) + " at " +
+                   facts.endpoint + ", scan mode " + plan.mode.name);
     mode_.reset();
     troubled_ = false;
   }
@@ -130,10 +129,8 @@ class Bridge final : public DriverListener {
   RplidarParameters parameters_;
   runtime::Source& source_;
   Driver driver_;
-  DriverState state_ = DriverState::connecting;
   std::optional<ScanMode> mode_;  // of scan_
   msg::Scan scan_;
-  std::string device_;
   bool troubled_ = false;  // a problem was told since the last revolution
   Clock::time_point next_counts_{};
 };

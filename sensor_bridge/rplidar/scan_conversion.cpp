@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sensor_bridge/scan_declaration.hpp"
+
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
@@ -74,14 +76,8 @@ void sort_into_bins(const Revolution& revolution, std::size_t bins, bool inverte
 }  // namespace
 
 msg::Scan declared_scan(const RplidarParameters& parameters, const ScanMode& mode) {
-  msg::Scan scan;
-  scan.header().frame(parameters.frame_id);
-  scan.sensor_model().range_stddev(parameters.range_stddev);
-  scan.sensor_model().bearing_stddev(parameters.bearing_stddev);
-  scan.sensor_model().range_bias_stddev(parameters.range_bias_stddev);
-  scan.range_min(static_cast<float>(parameters.range_min));
-  scan.range_max(
-      static_cast<float>(parameters.range_max > 0.0 ? parameters.range_max : mode.range_max));
+  msg::Scan scan = sensor_bridge::declared_scan(parameters);
+  if (parameters.range_max == 0.0) scan.range_max(static_cast<float>(mode.range_max));
   return scan;
 }
 

@@ -30,10 +30,13 @@ class Activity {
   virtual void set_diagnostic(const std::string& name, const std::string& value) = 0;
 };
 
-/// Opens what the body works on and returns it. Exceptions from opening are start-up errors (exit
-/// code 2).
-using ActivityFactory = std::function<std::function<void(Activity&)>(
+/// Opens what the body works on and returns the body, which works with a `Context`: Activity or
+/// derived from it. Exceptions from opening are start-up errors (exit code 2).
+template <class Context>
+using BodyFactory = std::function<std::function<void(Context&)>(
     const deploy::ServiceConfig&, const std::filesystem::path& base_directory)>;
+
+using ActivityFactory = BodyFactory<Activity>;
 
 /// The main function of a service without topics of data: command line, deployment file,
 /// participant, heartbeat, orderly end. The body returns when it is done, or when `wait_until` says

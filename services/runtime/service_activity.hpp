@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "services/runtime/activity.hpp"
 #include "services/runtime/service.hpp"
 
 namespace quoin::runtime {
@@ -40,11 +41,11 @@ class ServiceActivity : public Base {
   Service& service_;
 };
 
-/// Calls `open`, a SourceFactory or an ActivityFactory; its exceptions become errors of the
-/// deployment file at the place of the service.
-template <class Factory>
-[[nodiscard]] auto open_body(const Factory& open, const deploy::Deployment& deployment,
-                             const deploy::ServiceConfig& config) {
+/// Calls `open`; its exceptions become errors of the deployment file at the place of the service.
+template <class Context>
+[[nodiscard]] std::function<void(Context&)> open_body(const BodyFactory<Context>& open,
+                                                      const deploy::Deployment& deployment,
+                                                      const deploy::ServiceConfig& config) {
   try {
     return open(config, deployment.file.parent_path());
   } catch (const std::exception& error) {

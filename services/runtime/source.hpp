@@ -30,10 +30,7 @@ class Source : public Activity {
   virtual bool publish(msg::Scan& scan) = 0;
 };
 
-/// Opens what the source reads from and returns the body that publishes. Exceptions from opening
-/// are start-up errors (exit code 2).
-using SourceFactory = std::function<std::function<void(Source&)>(
-    const deploy::ServiceConfig&, const std::filesystem::path& base_directory)>;
+using SourceFactory = BodyFactory<Source>;
 
 /// The main function of a scan source: command line, deployment file, participant, waiting for the
 /// readers named in the deployment, heartbeat, orderly end. The body returns when a finite source

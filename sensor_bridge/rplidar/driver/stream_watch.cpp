@@ -7,13 +7,12 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-/// Less than that in a window says nothing of the rest; an ultra-dense frame has 172.
+/// Less than that in a window says nothing of the rest; an ultra-dense frame has 170.
 constexpr std::uint64_t telling_bytes = 400;
 
 }  // namespace
 
-StreamWatch::StreamWatch(const TimeOuts& time_outs, TimePoint start)
-    : time_outs_(time_outs), start_(start) {
+StreamWatch::StreamWatch(const TimeOuts& time_outs, TimePoint start) : time_outs_(time_outs) {
   last_frame_.time = start;
   window_.time = start;
 }

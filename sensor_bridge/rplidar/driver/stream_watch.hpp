@@ -37,7 +37,6 @@ class StreamWatch {
   [[nodiscard]] std::optional<Finding> judge_window(const Mark& now);
 
   TimeOuts time_outs_;
-  TimePoint start_;
   Mark last_frame_;
   Mark window_;
   std::optional<TimePoint> first_frame_;

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/fault.hpp"
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -53,7 +53,7 @@ void run_console(Emulator& emulator, const std::function<void(const std::string&
   ::sigemptyset(&ends);
   ::sigaddset(&ends, SIGINT);
   ::sigaddset(&ends, SIGTERM);
-  const OwnedDescriptor signals(::signalfd(-1, &ends, SFD_CLOEXEC));
+  const FileDescriptor signals(::signalfd(-1, &ends, SFD_CLOEXEC));
   if (!signals) throw std::system_error(errno, std::generic_category(), "signalfd");
 
   std::string typed;

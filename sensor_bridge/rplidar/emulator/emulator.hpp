@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/emulated_device.hpp"
 #include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
 #include "sensor_bridge/rplidar/emulator/garbler.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 
@@ -83,7 +83,7 @@ class Emulator {
   std::uint64_t misread_bytes_ = 0;
   unsigned misread_baud_rate_ = 0;  // that was reported last
   TimePoint retry_plug_in_{};
-  OwnedDescriptor wake_up_;
+  FileDescriptor wake_up_;
   std::atomic<bool> stop_ = false;
 };
 

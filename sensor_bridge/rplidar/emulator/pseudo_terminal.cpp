@@ -45,18 +45,18 @@ PseudoTerminal::PseudoTerminal(std::filesystem::path link, Report report)
 PseudoTerminal::~PseudoTerminal() { unplug(); }
 
 void PseudoTerminal::plug_in() {
-  OwnedDescriptor master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  FileDescriptor master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   std::array<char, 128> name{};
   if (!master || ::grantpt(master.get()) != 0 || ::unlockpt(master.get()) != 0 ||
       ::ptsname_r(master.get(), name.data(), name.size()) != 0) {
     fail("cannot be made");
   }
-  OwnedDescriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  FileDescriptor slave(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!slave) fail(std::string("cannot open ") + name.data());
   make_raw(slave.get());
   slave_path_ = name.data();
   // A system that does not tell serves its clients all the same.
-  openings_ = OwnedDescriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  openings_ = FileDescriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
   if (openings_ && ::inotify_add_watch(openings_.get(), name.data(), IN_OPEN | IN_CLOSE) < 0) {
     openings_.reset();
   }

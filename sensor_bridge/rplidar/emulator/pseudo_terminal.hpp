@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 
@@ -33,10 +33,10 @@ class PseudoTerminal : public Link {
 
   std::filesystem::path link_;
   Report report_;
-  OwnedDescriptor master_;
+  FileDescriptor master_;
   /// Without it the terminal would forget its mode whenever no client is there.
-  OwnedDescriptor slave_;
-  OwnedDescriptor openings_;  ///< tells when clients open and close the terminal
+  FileDescriptor slave_;
+  FileDescriptor openings_;  ///< tells when clients open and close the terminal
   int clients_ = 0;
   std::filesystem::path slave_path_;
 };

@@ -45,8 +45,8 @@ std::string SocketAddress::text() const {
   return (family() == AF_INET6 ? "[" + name + "]" : name) + ":" + port.data();
 }
 
-OwnedDescriptor bound_socket(int type, const SocketAddress& address) {
-  OwnedDescriptor socket(::socket(address.family(), type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+FileDescriptor bound_socket(int type, const SocketAddress& address) {
+  FileDescriptor socket(::socket(address.family(), type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int yes = 1;
   if (!socket ||
       // The same port again at once after being unplugged.

@@ -6,7 +6,7 @@
 #include <string>
 #include <sys/socket.h>
 
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
+#include "sensor_bridge/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 
@@ -39,6 +39,6 @@ class SocketAddress {
 
 /// A socket of this type (SOCK_STREAM, SOCK_DGRAM) that does not wait, bound to the address. Throws
 /// std::system_error.
-[[nodiscard]] OwnedDescriptor bound_socket(int type, const SocketAddress& address);
+[[nodiscard]] FileDescriptor bound_socket(int type, const SocketAddress& address);
 
 }  // namespace quoin::sensor_bridge::rplidar

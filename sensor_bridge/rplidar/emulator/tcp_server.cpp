@@ -16,7 +16,7 @@ TcpServer::TcpServer(const SocketAddress& address, Report report)
     : address_(address), report_(std::move(report)) {}
 
 void TcpServer::plug_in() {
-  OwnedDescriptor listener = bound_socket(SOCK_STREAM, address_);
+  FileDescriptor listener = bound_socket(SOCK_STREAM, address_);
   if (::listen(listener.get(), 1) != 0) {
     throw std::system_error(errno, std::generic_category(), "cannot listen on " + address_.text());
   }
@@ -39,7 +39,7 @@ void TcpServer::watch(std::vector<pollfd>& descriptors) const {
 
 void TcpServer::accept_client() {
   SocketAddress peer;
-  OwnedDescriptor client(
+  FileDescriptor client(
       ::accept4(listener_.get(), peer.get(), peer.size_to_fill(), SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!client) return;
   const int yes = 1;  // of no effect on what arrives, only on when

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/socket_address.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
@@ -27,8 +27,8 @@ class TcpServer : public Link {
 
   SocketAddress address_;
   Report report_;
-  OwnedDescriptor listener_;
-  OwnedDescriptor client_;
+  FileDescriptor listener_;
+  FileDescriptor client_;
 };
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -18,7 +18,7 @@ UdpServer::UdpServer(const SocketAddress& address, Report report)
     : address_(address), report_(std::move(report)) {}
 
 void UdpServer::plug_in() {
-  OwnedDescriptor socket = bound_socket(SOCK_DGRAM, address_);
+  FileDescriptor socket = bound_socket(SOCK_DGRAM, address_);
   address_ = SocketAddress::of(socket.get());  // the kernel's choice is kept from now on
   socket_ = std::move(socket);
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/socket_address.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
@@ -30,7 +30,7 @@ class UdpServer : public Link {
 
   SocketAddress address_;
   Report report_;
-  OwnedDescriptor socket_;
+  FileDescriptor socket_;
   SocketAddress client_;
   std::vector<std::uint8_t> waiting_;
   TimePoint waiting_since_{};

@@ -19,10 +19,6 @@ constexpr std::chrono::microseconds gathering_time{500};
 
 }  // namespace
 
-FileDescriptor::~FileDescriptor() {
-  if (number_ >= 0) ::close(number_);
-}
-
 bool wait_for(int descriptor, short event, Deadline deadline) {
   pollfd waited{.fd = descriptor, .events = event, .revents = 0};
   while (true) {

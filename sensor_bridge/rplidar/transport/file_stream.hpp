@@ -5,27 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "sensor_bridge/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/transport/transport.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
-
-/// Owner of a file descriptor.
-class FileDescriptor {
- public:
-  FileDescriptor() = default;
-  explicit FileDescriptor(int number) : number_(number) {}
-  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~FileDescriptor();
-
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_ = -1;
-};
 
 /// Waits for an event of poll(): true when it, an error or a hang-up has come before the deadline.
 [[nodiscard]] bool wait_for(int descriptor, short event, Deadline deadline);
@@ -42,7 +25,7 @@ class FileStream : public Transport {
   void discard_input() override;
 
  protected:
-  [[nodiscard]] int descriptor() const { return descriptor_.number(); }
+  [[nodiscard]] int descriptor() const { return descriptor_.get(); }
 
  private:
   /// 0 from read() is the end of a connection, but with a serial port may be nothing to read.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/rplidar/transport/find_port.hpp"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,8 @@ namespace quoin::sensor_bridge::rplidar {
 Endpoint find_endpoint(std::string_view text, const std::filesystem::path& root) {
   if (text != "auto") return parse_endpoint(text);
   const std::vector<SerialPortEntry> ports = list_serial_ports(root);
-  std::vector<SerialPortEntry> usual;
-  std::ranges::copy_if(ports, std::back_inserter(usual), [](const SerialPortEntry& port) {
-    return port.usb && is_usual_adapter(*port.usb);
-  });
-  if (usual.size() == 1) {
-    return parse_endpoint(usual[0].link.empty() ? usual[0].device : usual[0].link);
-  }
+  const std::vector<SerialPortEntry> usual = usual_adapters(ports);
+  if (usual.size() == 1) return parse_endpoint(usual[0].name());
   if (ports.empty()) {
     throw EndpointError(
         "no USB serial port is there; plug the device in, or name its serial_port, "
@@ -27,7 +21,7 @@ Endpoint find_endpoint(std::string_view text, const std::filesystem::path& root)
   }
   std::string names;
   for (const SerialPortEntry& port : ports) {
-    names += (names.empty() ? "" : ", ") + (port.link.empty() ? port.device : port.link);
+    names += (names.empty() ? "" : ", ") + port.name();
   }
   throw EndpointError(std::string(usual.empty() ? "no USB serial adapter of the usual type is there"
                                                 : "several devices may be meant") +

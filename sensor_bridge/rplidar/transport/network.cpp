@@ -41,7 +41,7 @@ Addresses addresses_of(const Endpoint& endpoint, int type) {
 FileDescriptor connect_to(const addrinfo& address, Deadline deadline, int& error) {
   FileDescriptor descriptor(::socket(
       address.ai_family, address.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, address.ai_protocol));
-  const int socket = descriptor.number();
+  const int socket = descriptor.get();
   error = 0;
   if (socket < 0 || (::connect(socket, address.ai_addr, address.ai_addrlen) < 0)) error = errno;
   if (error != EINPROGRESS) return descriptor;
@@ -84,7 +84,7 @@ class UdpConnection final : public Transport {
   std::size_t read(std::span<std::uint8_t> bytes, Deadline deadline) override {
     // What does not fit into `bytes` would be lost: a datagram is received as a whole.
     while (begin_ == end_) {
-      if (!wait_for(descriptor_.number(), POLLIN, deadline)) return 0;
+      if (!wait_for(descriptor_.get(), POLLIN, deadline)) return 0;
       receive();
       if (begin_ == end_ && Clock::now() >= deadline) return 0;
     }
@@ -95,9 +95,9 @@ class UdpConnection final : public Transport {
   }
 
   void write(std::span<const std::uint8_t> bytes, Deadline deadline) override {
-    while (::send(descriptor_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) {
+    while (::send(descriptor_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) {
       if (errno != EAGAIN && errno != EINTR) throw system_error(name_, "send", errno);
-      if (!wait_for(descriptor_.number(), POLLOUT, deadline) || Clock::now() > deadline) {
+      if (!wait_for(descriptor_.get(), POLLOUT, deadline) || Clock::now() > deadline) {
         throw TransportError(TransportError::Kind::timed_out, name_ + ": takes no datagram");
       }
     }
@@ -105,7 +105,7 @@ class UdpConnection final : public Transport {
 
   void discard_input() override {
     begin_ = end_ = 0;
-    for (int datagram = 0; datagram < 1024 && wait_for(descriptor_.number(), POLLIN, Deadline{});
+    for (int datagram = 0; datagram < 1024 && wait_for(descriptor_.get(), POLLIN, Deadline{});
          ++datagram) {
       receive();
     }
@@ -114,7 +114,7 @@ class UdpConnection final : public Transport {
 
  private:
   void receive() {
-    const ssize_t count = ::recv(descriptor_.number(), datagram_.data(), datagram_.size(), 0);
+    const ssize_t count = ::recv(descriptor_.get(), datagram_.data(), datagram_.size(), 0);
     if (count < 0 && errno != EAGAIN && errno != EINTR) throw system_error(name_, "receive", errno);
     begin_ = 0;
     end_ = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
@@ -132,7 +132,7 @@ class UdpConnection final : public Transport {
 std::unique_ptr<Transport> connect_tcp(const Endpoint& endpoint,
                                        std::chrono::milliseconds time_out) {
   FileDescriptor descriptor = connect_first(endpoint, SOCK_STREAM, Clock::now() + time_out);
-  const int socket = descriptor.number();
+  const int socket = descriptor.get();
   const int on = 1;
   // Requests are a few bytes each; they must not wait for one another.
   (void)::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));

@@ -65,7 +65,7 @@ bool is_close(unsigned rate, unsigned wanted) {
 std::unique_ptr<Transport> open_serial(const std::string& path, unsigned baud_rate) {
   // Without O_NONBLOCK the call would wait for a modem's carrier.
   FileDescriptor descriptor(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  const int port = descriptor.number();
+  const int port = descriptor.get();
   if (port < 0 && errno == EBUSY) throw_busy(path);
   if (port < 0) throw system_error(path, "open", errno);
   if (!baud_rate_of(port)) throw system_error(path, "open", ENOTTY);

@@ -89,4 +89,11 @@ std::vector<SerialPortEntry> list_serial_ports(const fs::path& root) {
   return ports;
 }
 
+std::vector<SerialPortEntry> usual_adapters(std::vector<SerialPortEntry> ports) {
+  std::erase_if(ports, [](const SerialPortEntry& port) {
+    return !(port.usb && is_usual_adapter(*port.usb));
+  });
+  return ports;
+}
+
 }  // namespace quoin::sensor_bridge::rplidar

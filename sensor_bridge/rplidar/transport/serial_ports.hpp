@@ -26,6 +26,9 @@ struct SerialPortEntry {
   std::string link;    ///< below /dev/serial/by-id, stays the same; empty without udev
   std::optional<UsbIdentity> usb;
 
+  /// By which it is found again when it was plugged out.
+  [[nodiscard]] const std::string& name() const { return link.empty() ? device : link; }
+
   friend bool operator==(const SerialPortEntry&, const SerialPortEntry&) = default;
 };
 
@@ -36,5 +39,8 @@ struct SerialPortEntry {
 /// system is looked at; the names begin at it.
 [[nodiscard]] std::vector<SerialPortEntry> list_serial_ports(
     const std::filesystem::path& root = "/");
+
+/// Those of them that are usual adapters.
+[[nodiscard]] std::vector<SerialPortEntry> usual_adapters(std::vector<SerialPortEntry> ports);
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -103,7 +103,7 @@ TEST(ScanConversion, DeclaresWhatTheDeviceSaysUnlessTold) {
   EXPECT_FLOAT_EQ(declared_scan(parameters, mode).range_max(), 40.0F);
   parameters.range_max = 12.0;
   parameters.range_stddev = 0.02;
-  parameters.frame_id = "lidar_link";
+  parameters.frame = "lidar_link";
   const msg::Scan scan = declared_scan(parameters, mode);
   EXPECT_FLOAT_EQ(scan.range_max(), 12.0F);
   EXPECT_DOUBLE_EQ(scan.sensor_model().range_stddev(), 0.02);

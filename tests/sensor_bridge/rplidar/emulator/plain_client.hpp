@@ -18,7 +18,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/rplidar/emulator/owned_descriptor.hpp"
+#include "sensor_bridge/file_descriptor.hpp"
 #include "tests/sensor_bridge/rplidar/protocol/hex.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
@@ -33,7 +33,7 @@ class PlainClient {
   /// A path of a serial port, "tcp://127.0.0.1:port" or "udp://127.0.0.1:port".
   explicit PlainClient(const std::string& endpoint, unsigned baud_rate = 256000) {
     if (endpoint.starts_with("tcp://") || endpoint.starts_with("udp://")) {
-      descriptor_ = OwnedDescriptor(
+      descriptor_ = FileDescriptor(
           ::socket(AF_INET, (endpoint[0] == 't' ? SOCK_STREAM : SOCK_DGRAM) | SOCK_CLOEXEC, 0));
       sockaddr_in address{};
       address.sin_family = AF_INET;
@@ -44,7 +44,7 @@ class PlainClient {
                              sizeof address) == 0;
     } else {
       descriptor_ =
-          OwnedDescriptor(::open(endpoint.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+          FileDescriptor(::open(endpoint.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
       connected_ = static_cast<bool>(descriptor_);
       if (connected_) set_baud_rate(baud_rate);
     }
@@ -113,7 +113,7 @@ class PlainClient {
   [[nodiscard]] bool ended() const { return ended_; }
 
  private:
-  OwnedDescriptor descriptor_;
+  FileDescriptor descriptor_;
   bool connected_ = false;
   bool ended_ = false;
 };

@@ -5,18 +5,18 @@
 #include <unistd.h>
 #include <utility>
 
-namespace quoin::sensor_bridge::rplidar {
+namespace quoin::sensor_bridge {
 
 /// Closes what it owns; -1 owns nothing.
-class OwnedDescriptor {
+class FileDescriptor {
  public:
-  explicit OwnedDescriptor(int number = -1) : number_(number) {}
-  OwnedDescriptor(OwnedDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  OwnedDescriptor& operator=(OwnedDescriptor&& other) noexcept {
+  explicit FileDescriptor(int number = -1) : number_(number) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(number_, other.number_);
     return *this;
   }
-  ~OwnedDescriptor() { reset(); }
+  ~FileDescriptor() { reset(); }
 
   void reset() {
     if (number_ >= 0) ::close(std::exchange(number_, -1));
@@ -28,4 +28,4 @@ class OwnedDescriptor {
   int number_;
 };
 
-}  // namespace quoin::sensor_bridge::rplidar
+}  // namespace quoin::sensor_bridge
