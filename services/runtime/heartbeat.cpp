@@ -107,6 +107,11 @@ void Heartbeat::count_loss(LossCause cause) {
   ++losses_[static_cast<std::size_t>(cause)];
 }
 
+void Heartbeat::count_control_drop() {
+  const std::lock_guard lock(mutex_);
+  ++status_.control_dropped();
+}
+
 void Heartbeat::count_published(std::int64_t scan_published, std::int64_t received,
                                 std::int64_t published, std::size_t failures) {
   const std::lock_guard lock(mutex_);
