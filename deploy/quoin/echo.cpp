@@ -33,7 +33,7 @@ struct EchoOptions {
 template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
-  runtime::Participant participant({deployment.domain, deployment.name_space + "/quoin_echo"});
+  runtime::Participant participant(runtime::participant_config(deployment, "quoin_echo"));
   // Whoever only looks must not slow the writer down, as a lossless reader would.
   const std::string qos = service.qos == "lossless" ? "feature" : service.qos;
   const std::string topic = output_topic(deployment, service);
