@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
             argv[0]);
     return 2;
   }
-  const char* service = argv[3];
+  char* service = argv[3];
   const int32_t count = positive_number(argv[4], "the count");
   const int32_t readers = positive_number(argv[5], "the number of readers");
   char topic_name[256];
@@ -83,9 +83,9 @@ int main(int argc, char** argv) {
   float ranges[rays];
   fill_rays(bearings, ranges);
   // The source's entry in the trace. Its incarnation tells a restarted source from the one before.
-  quoin_msg_StageTrace trace = {.service = argv[3], .method = "", .incarnation = (uint64_t)now()};
+  quoin_msg_StageTrace trace = {.service = service, .method = "", .incarnation = (uint64_t)now()};
   quoin_msg_Scan scan = {
-      .header = {.sensor = argv[3],
+      .header = {.sensor = service,
                  .frame = "laser",
                  .trace = {._maximum = 1, ._length = 1, ._buffer = &trace}},
       .sensor_model = {.range_stddev = 0.010, .bearing_stddev = 0.0, .range_bias_stddev = 0.0},
