@@ -32,6 +32,7 @@
 #include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
+#include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
 
 using namespace quoin;
@@ -40,20 +41,6 @@ using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
 namespace {
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
-double resident_mib(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
-  double total = 0;
-  double resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-}
 
 /// Twenty different revolutions of a 920-point sensor in the domestic room.
 std::vector<msg::Scan> make_scans() {
