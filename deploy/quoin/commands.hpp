@@ -45,6 +45,7 @@ inline void add_network_options(CLI::App& line, NetworkOptions& options, CLI::Op
 [[nodiscard]] Command add_methods(CLI::App& app);
 [[nodiscard]] Command add_status(CLI::App& app);
 [[nodiscard]] Command add_echo(CLI::App& app);
+[[nodiscard]] Command add_compare(CLI::App& app);
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);

@@ -12,11 +12,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-std::string milliseconds_pair(double first, double second) {
-  if (first <= 0.0 && second <= 0.0) return "-";
-  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
-}
-
 std::string kind_and_method(const ServiceFigures& service) {
   return service.method.empty() ? service.kind : service.kind + "/" + service.method;
 }
@@ -59,6 +54,11 @@ void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t wi
     }
     lines.push_back(line.substr(0, width));
   }
+}
+
+std::string milliseconds_pair(double first, double second) {
+  if (first <= 0.0 && second <= 0.0) return "-";
+  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
 }
 
 std::string fixed(double value, int digits) {
