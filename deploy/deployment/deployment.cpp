@@ -19,12 +19,17 @@ std::string joined(const std::vector<std::string>& messages) {
 DeploymentError::DeploymentError(std::vector<std::string> messages)
     : std::runtime_error(joined(messages)), messages_(std::move(messages)) {}
 
+std::string label(const ServiceConfig& service) {
+  return service.strength ? service.name + "@" + std::to_string(*service.strength) : service.name;
+}
+
 const ServiceConfig& Deployment::service(std::string_view name) const {
-  const auto found =
-      std::find_if(services.begin(), services.end(), [&](const auto& s) { return s.name == name; });
+  const auto found = std::find_if(services.begin(), services.end(), [&](const ServiceConfig& s) {
+    return s.name == name || label(s) == name;
+  });
   if (found == services.end()) {
     std::vector<std::string> names;
-    for (const ServiceConfig& s : services) names.push_back(s.name);
+    for (const ServiceConfig& s : services) names.push_back(label(s));
     throw std::out_of_range(file.string() + ": no service '" + std::string(name) + "'" +
                             suggestion(name, names));
   }

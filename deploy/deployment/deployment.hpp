@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -25,6 +27,40 @@ enum class RestartPolicy {
   never,   ///< leave it dead
 };
 
+/// How participants find each other.
+enum class Discovery {
+  multicast,  ///< announcements to all on the network
+  server,     ///< through discovery servers, each of which suffices
+  peers,      ///< announcements to each of the listed hosts
+};
+
+struct ServerAddress {
+  std::string address;  ///< IPv4
+  std::uint16_t port = 0;
+
+  friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
+};
+
+/// The interfaces that DDS uses, and how discovery works on them.
+struct NetworkConfig {
+  /// Names (eth0), IPv4 addresses or networks (10.7.0.0/24); each host uses those of them that it
+  /// has. Empty: 127.0.0.1 alone.
+  std::vector<std::string> interfaces;
+  Discovery discovery = Discovery::peers;
+  std::vector<std::string> peers;      ///< IPv4 addresses of the hosts, with Discovery::peers
+  std::vector<ServerAddress> servers;  ///< with Discovery::server
+
+  friend bool operator==(const NetworkConfig&, const NetworkConfig&) = default;
+};
+
+/// DDS Security: every participant proves its identity and has permissions of its own.
+struct SecurityConfig {
+  std::filesystem::path directory;  ///< of the keys
+  bool encrypt = true;              ///< messages are encrypted, not only signed
+
+  friend bool operator==(const SecurityConfig&, const SecurityConfig&) = default;
+};
+
 struct ServiceConfig {
   std::string name;
   std::string kind;
@@ -34,21 +70,32 @@ struct ServiceConfig {
   std::string qos;  ///< preset of the output topic: sensor, feature, state or lossless
   ParameterSettings parameters;  ///< validated against the method or kind
   RestartPolicy restart = RestartPolicy::always;
+  std::string host;  ///< where it runs; "" when the deployment names no hosts
+  /// Of this instance's claim to the output, when there are several of one name; the strongest that
+  /// lives is heard.
+  std::optional<int> strength;
   Position position;  ///< of the service in the file
 };
 
 /// A deployment file, validated: every name exists, every input fits, there is no cycle.
 struct Deployment {
   std::filesystem::path file;
-  std::string name_space;               ///< prefix of all topics
-  int domain = 0;                       ///< DDS domain, 0..232
-  std::vector<ServiceConfig> services;  ///< inputs before those who read them
+  std::string name_space;  ///< prefix of all topics
+  int domain = 0;          ///< DDS domain, 0..232
+  NetworkConfig network;
+  std::optional<SecurityConfig> security;
+  std::vector<ServiceConfig> services;  ///< inputs before those who read them, strong before weak
 
-  /// Throws std::out_of_range when there is no such service.
+  /// By label, or by name: then the strongest of its instances. Throws std::out_of_range when there
+  /// is no such service.
   [[nodiscard]] const ServiceConfig& service(std::string_view name) const;
   /// Services that read the output of `name`.
   [[nodiscard]] std::vector<const ServiceConfig*> readers_of(std::string_view name) const;
 };
+
+/// What tells an instance of a service from all others: the name, or name@strength where there is
+/// a strength.
+[[nodiscard]] std::string label(const ServiceConfig& service);
 
 /// One or more things wrong with a deployment file, each as "file:line:column: what; what to do",
 /// joined by line feeds in what().

@@ -26,20 +26,6 @@ struct Command {
   return {check, "> 0"};
 }
 
-/// Where the services of a running deployment are found without its file.
-struct NetworkOptions {
-  int domain = 0;
-  std::string name_space = "quoin";
-};
-
-/// `file` is the option of the deployment file, which says both.
-inline void add_network_options(CLI::App& line, NetworkOptions& options, CLI::Option* file) {
-  line.add_option("--domain", options.domain, "DDS domain")
-      ->check(CLI::Range(0, 232))
-      ->excludes(file);
-  line.add_option("--namespace", options.name_space, "Namespace of the topics")->excludes(file);
-}
-
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);

@@ -108,7 +108,7 @@ class Listener {
       : options_(options),
         deployment_(deployment),
         selection_(selection),
-        participant_({deployment.domain, deployment.name_space + "/quoin_compare"}),
+        participant_(runtime::participant_config(deployment, "quoin_compare")),
         comparison_(names(selection), selection.reference, options.gate, options.scans),
         display_(options.json ? Display::Mode::errors : Display::Mode::automatic) {
     for (const ServiceConfig* service : selection.services) {
@@ -160,7 +160,8 @@ class Listener {
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       const auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now());
       if (readers_[i]->wait_for_writers(1, std::max(left, milliseconds(0)))) continue;
-      display_.log("quoin", "nobody publishes " + output_topic(deployment_, *selection_.services[i]) +
+      display_.log("quoin", "nobody publishes " +
+                                output_topic(deployment_, *selection_.services[i]) +
                                 " yet; waiting (quoin up starts a deployment)");
     }
     for (const auto& reader : readers_) {

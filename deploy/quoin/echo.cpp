@@ -34,7 +34,7 @@ struct EchoOptions {
 template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
-  runtime::Participant participant({deployment.domain, deployment.name_space + "/quoin_echo"});
+  runtime::Participant participant(runtime::participant_config(deployment, "quoin_echo"));
   const std::string topic = output_topic(deployment, service);
   runtime::Reader<T> reader(participant, topic, onlooker_qos(service));
   runtime::WaitSet wait_set;

@@ -60,7 +60,7 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
 
 Monitor::Monitor(const Deployment& deployment)
     : deployment_(deployment),
-      participant_({deployment.domain, deployment.name_space + "/quoin"}),
+      participant_(runtime::participant_config(deployment, "quoin")),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
   for (const ServiceConfig& service : deployment.services) {

@@ -42,7 +42,7 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
                    std::optional<std::uint64_t> scan)
     : chain_(chain),
       scan_(scan),
-      participant_({deployment.domain, deployment.name_space + "/quoin_draw"}),
+      participant_(runtime::participant_config(deployment, "quoin_draw")),
       segments_(participant_, output_topic(deployment, *chain.segmentation),
                 onlooker_qos(*chain.segmentation)),
       lines_(participant_, output_topic(deployment, *chain.line_fitting),

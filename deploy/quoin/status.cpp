@@ -5,7 +5,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/monitor.hpp"
+#include "deploy/quoin/network_options.hpp"
 #include "deploy/report/summary.hpp"
 #include "deploy/report/table.hpp"
 #include "services/runtime/participant.hpp"
@@ -34,21 +34,19 @@ struct StatusOptions {
 
 using Heartbeats = std::map<std::string, msg::ServiceStatus>;
 
-/// The newest heartbeat of each service; returns early once all `expected` ones have been heard.
-Heartbeats collect(int domain, const std::string& name_space, double wait,
-                   const std::optional<Deployment>& expected) {
-  runtime::Participant participant({domain, name_space + "/quoin_status"});
-  runtime::Reader<msg::ServiceStatus> reader(participant, status_topic(name_space),
+/// The newest heartbeat of each service; returns early once all of the deployment have been heard.
+Heartbeats collect(const Deployment& deployment, double wait) {
+  runtime::Participant participant(runtime::participant_config(deployment, "quoin_status"));
+  runtime::Reader<msg::ServiceStatus> reader(participant, status_topic(deployment.name_space),
                                              runtime::QosPreset::state);
   runtime::WaitSet wait_set;
   wait_set.add(reader);
   Heartbeats heartbeats;
   const auto complete = [&] {
-    if (!expected) return false;
-    for (const ServiceConfig& service : expected->services) {
+    for (const ServiceConfig& service : deployment.services) {
       if (!heartbeats.contains(service.name)) return false;
     }
-    return true;
+    return !deployment.services.empty();
   };
   msg::ServiceStatus status;
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -68,14 +66,13 @@ ServiceFigures figures_of(const msg::ServiceStatus& status) {
   return {status.service(), status.kind(), status.method(), report_of(status), 0};
 }
 
-DeploymentFigures figures_of(const Heartbeats& heartbeats,
-                             const std::optional<Deployment>& expected) {
+DeploymentFigures figures_of(const Heartbeats& heartbeats, const Deployment& deployment) {
   DeploymentFigures figures;
-  if (!expected) {
+  if (deployment.services.empty()) {
     for (const auto& [name, status] : heartbeats) figures.services.push_back(figures_of(status));
     return figures;
   }
-  for (const ServiceConfig& service : expected->services) {
+  for (const ServiceConfig& service : deployment.services) {
     const auto heard = heartbeats.find(service.name);
     if (heard != heartbeats.end()) {
       figures.services.push_back(figures_of(heard->second));
@@ -131,11 +128,8 @@ void print_json(const DeploymentFigures& figures, const Heartbeats& heartbeats) 
 }
 
 int run(const StatusOptions& options) {
-  std::optional<Deployment> deployment;
-  if (!options.file.empty()) deployment = load_deployment(options.file);
-  const int domain = deployment ? deployment->domain : options.network.domain;
-  const std::string& name_space = deployment ? deployment->name_space : options.network.name_space;
-  const Heartbeats heartbeats = collect(domain, name_space, options.wait, deployment);
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  const Heartbeats heartbeats = collect(deployment, options.wait);
   const DeploymentFigures figures = figures_of(heartbeats, deployment);
   if (options.json) {
     print_json(figures, heartbeats);
@@ -143,8 +137,8 @@ int run(const StatusOptions& options) {
     print(figures, heartbeats);
   }
   if (heartbeats.empty()) {
-    std::cerr << "no service of namespace '" << name_space << "' reports in domain " << domain
-              << "; is it running?\n";
+    std::cerr << "no service of namespace '" << deployment.name_space << "' reports in domain "
+              << deployment.domain << "; is it running?\n";
     return exit_failure;
   }
   for (const ServiceFigures& service : figures.services) {

@@ -74,6 +74,11 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config) {
 
 }  // namespace
 
+ParticipantConfig participant_config(const deploy::Deployment& deployment,
+                                     const std::string& name) {
+  return {deployment.domain, deployment.name_space + "/" + name, deployment.network};
+}
+
 Participant::Participant(const ParticipantConfig& config) : impl_(std::make_unique<Impl>()) {
   disable_intraprocess_delivery();
   auto* factory = dds::DomainParticipantFactory::get_instance();

@@ -5,13 +5,20 @@
 #include <memory>
 #include <string>
 
+#include "deploy/deployment/deployment.hpp"
+
 namespace quoin::runtime {
 
-/// How a process takes part in DDS. Loopback only.
+/// How a process takes part in DDS.
 struct ParticipantConfig {
   int domain = 0;
   std::string name;  ///< shown by DDS tools
+  deploy::NetworkConfig network = {};
 };
+
+/// Of a participant that takes part in `deployment` as <namespace>/`name`.
+[[nodiscard]] ParticipantConfig participant_config(const deploy::Deployment& deployment,
+                                                   const std::string& name);
 
 /// A DDS participant that speaks UDP on 127.0.0.1 alone: it opens no other interface, sends no
 /// multicast and leaves no shared-memory file. Throws std::runtime_error when it cannot be created.

@@ -31,7 +31,7 @@ class TestDeployment {
     return deploy::output_topic(deployment_, deployment_.service(service));
   }
   [[nodiscard]] runtime::ParticipantConfig participant(const std::string& name) const {
-    return {deployment_.domain, name};
+    return runtime::participant_config(deployment_, name);
   }
 
   /// Starts the process of one service; `observers` readers of this test are waited for.
