@@ -22,7 +22,7 @@ Row service_row(const ServiceFigures& service) {
           std::to_string(report.received), std::to_string(report.published),
           std::to_string(report.lost),
           // A source's results are the scans themselves.
-          report.received == 0 ? "-" : milliseconds_pair(report.latency_p50, report.latency_p99),
+          report.received == 0 ? "-" : milli_pair(report.latency_p50, report.latency_p99),
           fixed(static_cast<double>(report.resident_memory) / (1024.0 * 1024.0), 1),
           std::to_string(service.restarts)};
 }
@@ -56,7 +56,7 @@ void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t wi
   }
 }
 
-std::string milliseconds_pair(double first, double second) {
+std::string milli_pair(double first, double second) {
   if (first <= 0.0 && second <= 0.0) return "-";
   return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
 }
