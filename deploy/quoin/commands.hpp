@@ -34,6 +34,7 @@ struct Command {
 [[nodiscard]] Command add_compare(CLI::App& app);
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
+[[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
 [[nodiscard]] Command add_set(CLI::App& app);
