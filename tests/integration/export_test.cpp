@@ -54,6 +54,22 @@ TEST(Export, SystemdAcceptsTheUnitsOfTheExamples) {
     ASSERT_EQ(quoin.wait(60s), 0) << quoin.errors();
     EXPECT_EQ(run_shell("cd " + folder.string() + " && systemd-analyze verify ./*"), "exit 0");
   }
+  // systemd finds the program only if it reads the path as it was meant.
+  const auto odd = directory.path() / "100% $HOME \xc3\xa4";
+  std::filesystem::create_directory(odd);
+  for (const char* program :
+       {"quoin-simulated", "quoin-segmentation", "quoin-line-fitting", "quoin-corner-estimation"}) {
+    std::filesystem::create_symlink(std::string(QUOIN_BIN_DIR) + "/" + program, odd / program);
+  }
+  std::filesystem::copy_file(std::string(QUOIN_EXAMPLES_DIR) + "/minimal.yaml",
+                             odd / "a 'b' \"c\\.yaml");
+  Process quoin("quoin",
+                {"export", "systemd", (odd / "a 'b' \"c\\.yaml").string(), "--programs",
+                 odd.string(), "-o", (directory.path() / "odd").string()},
+                directory.path());
+  ASSERT_EQ(quoin.wait(60s), 0) << quoin.errors();
+  EXPECT_EQ(run_shell("cd " + directory.path().string() + "/odd && systemd-analyze verify ./*"),
+            "exit 0");
   // [0, 10]; a unit without any of it has 9.6.
   const std::string report =
       run_shell("systemd-analyze security --offline=true --threshold=20 " +
