@@ -84,9 +84,15 @@ TEST(ExportPlan, ReadersComeBeforeWhatTheyRead) {
       EXPECT_FALSE(service.serial_port);
       EXPECT_TRUE(service.own_network);
     }
-    if (service.id == "side") EXPECT_TRUE(service.may_finish);
-    if (service.id == "walls") EXPECT_THAT(service.after, ElementsAre("a", "on"));
-    if (service.id == "a") EXPECT_THAT(service.after, IsEmpty());
+    if (service.id == "side") {
+      EXPECT_TRUE(service.may_finish);
+    }
+    if (service.id == "walls") {
+      EXPECT_THAT(service.after, ElementsAre("a", "on"));
+    }
+    if (service.id == "a") {
+      EXPECT_THAT(service.after, IsEmpty());
+    }
   }
 }
 
