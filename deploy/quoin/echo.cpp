@@ -13,6 +13,7 @@
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/message_json.hpp"
 #include "deploy/quoin/message_text.hpp"
+#include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
@@ -34,10 +35,8 @@ template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
   runtime::Participant participant(runtime::participant_config(deployment, "quoin_echo"));
-  // Whoever only looks must not slow the writer down, as a lossless reader would.
-  const std::string qos = service.qos == "lossless" ? "feature" : service.qos;
   const std::string topic = output_topic(deployment, service);
-  runtime::Reader<T> reader(participant, topic, runtime::qos_preset(qos));
+  runtime::Reader<T> reader(participant, topic, onlooker_qos(service));
   runtime::WaitSet wait_set;
   wait_set.add(reader);
   if (!reader.wait_for_writers(1, milliseconds(1500))) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "deploy/deployment/kinds.hpp"
+#include "services/runtime/heartbeat.hpp"
 #include "services/runtime/qos.hpp"
 
 namespace quoin::deploy {
@@ -14,22 +15,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-std::string state_name(msg::ServiceState state) {
-  switch (state) {
-    case msg::STATE_STARTING:
-      return "starting";
-    case msg::STATE_ACTIVE:
-      return "active";
-    case msg::STATE_FINISHED:
-      return "finished";
-    case msg::STATE_STOPPED:
-      return "stopped";
-    case msg::STATE_FAILED:
-      return "failed";
-  }
-  return "unknown";
-}
 
 std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
   const ServiceConfig* origin = &service;
@@ -41,7 +26,7 @@ std::string source_of(const Deployment& deployment, const ServiceConfig& service
 
 ServiceReport report_of(const msg::ServiceStatus& status) {
   ServiceReport report;
-  report.state = state_name(status.state());
+  report.state = runtime::state_name(status.state());
   report.detail = status.detail();
   report.received = status.received();
   report.published = status.published();

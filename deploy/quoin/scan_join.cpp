@@ -17,12 +17,11 @@ namespace {
 // Scans waiting for their other parts; a chain is never that far apart.
 constexpr std::size_t most_pending = 64;
 
-/// A reader that only looks must not slow the writer down, as a lossless one would.
+}  // namespace
+
 runtime::QosPreset onlooker_qos(const ServiceConfig& service) {
   return runtime::qos_preset(service.qos == "lossless" ? "feature" : service.qos);
 }
-
-}  // namespace
 
 CornerChain corner_chain(const Deployment& deployment, const std::string& name) {
   const ServiceConfig& corners = deployment.service(name);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <unistd.h>
 #include <utility>
@@ -34,6 +35,22 @@ double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(
 
 }  // namespace
 
+std::string state_name(msg::ServiceState state) {
+  switch (state) {
+    case msg::STATE_STARTING:
+      return "starting";
+    case msg::STATE_ACTIVE:
+      return "active";
+    case msg::STATE_FINISHED:
+      return "finished";
+    case msg::STATE_STOPPED:
+      return "stopped";
+    case msg::STATE_FAILED:
+      return "failed";
+  }
+  return "unknown";
+}
+
 Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deployment,
                      const deploy::ServiceConfig& config)
     : incarnation_(static_cast<std::uint64_t>(now_ns())),
@@ -59,11 +76,14 @@ Heartbeat::~Heartbeat() {
 }
 
 void Heartbeat::set_state(msg::ServiceState state, const std::string& detail) {
-  const std::lock_guard lock(mutex_);
-  status_.state(state);
-  status_.detail(detail);
-  changed_state_ = true;
-  changed_.notify_all();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state(state);
+    status_.detail(detail);
+    changed_state_ = true;
+    changed_.notify_all();
+  }
+  if (state == msg::ServiceState::STATE_ACTIVE) supervisor_.ready();
 }
 
 void Heartbeat::set_detail(const std::string& detail) {
@@ -161,11 +181,27 @@ void Heartbeat::run() {
     }
     {
       const std::lock_guard lock(write_mutex_);
-      writer_.write(snapshot());
+      const msg::ServiceStatus status = snapshot();
+      writer_.write(status);
+      tell_supervisor(status);
     }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });
   }
+}
+
+void Heartbeat::tell_supervisor(const msg::ServiceStatus& status) {
+  std::string text = state_name(status.state());
+  if (!status.detail().empty()) text += ": " + status.detail();
+  // The service manager writes each of these down.
+  if (text == told_ && seconds(told_at_, status.stamp()) < 10.0) return;
+  told_ = text;
+  told_at_ = status.stamp();
+  std::array<char, 96> counts{};
+  std::snprintf(counts.data(), counts.size(), "; %.1f Hz, %llu published, %llu lost", status.rate(),
+                static_cast<unsigned long long>(status.published()),
+                static_cast<unsigned long long>(status.lost()));
+  supervisor_.status(text + counts.data());
 }
 
 void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
@@ -176,8 +212,11 @@ void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
     ending_ = true;
     changed_.notify_all();
   }
+  supervisor_.stopping();
   const std::lock_guard lock(write_mutex_);
-  writer_.write(snapshot());
+  const msg::ServiceStatus status = snapshot();
+  writer_.write(status);
+  tell_supervisor(status);
   writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
 }
 

@@ -21,12 +21,15 @@ namespace quoin::runtime {
 
 namespace {
 
+constexpr std::chrono::seconds longest_wait{1};
+
 /// Reads, processes, publishes and accounts for one service, in the thread that calls run().
 template <class In, class Out>
 class Stage {
  public:
   Stage(Service& service, Process<In, Out> process, const ProcessFactory<In, Out>& make)
       : service_(service),
+        pulse_(service.heartbeat.pulse()),
         process_(std::move(process)),
         lossless_(qos_preset(service.config.qos) == QosPreset::lossless),
         writer_(service.participant, deploy::output_topic(service.deployment, service.config),
@@ -42,6 +45,7 @@ class Stage {
                         qos_preset(input.qos));
       read(reader);
     }
+    service_.heartbeat.stopping();
     if (!writer_.wait_for_acknowledgments(std::chrono::seconds(2))) {
       spdlog::warn("not all readers have acknowledged the last results");
     }
@@ -65,7 +69,8 @@ class Stage {
     service_.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
     bool stopping = false;
     while (!stopping) {
-      wait_set.wait(std::chrono::seconds(1));
+      pulse_.wait_until(Pulse::Clock::now() + longest_wait);
+      wait_set.wait(longest_wait);
       // Asked before the last round of taking: what was received until then is still processed.
       stopping = service_.stop.requested();
       while (reader.take(in_)) handle();
@@ -75,6 +80,7 @@ class Stage {
   }
 
   void handle() {
+    pulse_.beat();
     const std::int64_t received = now_ns();
     std::uint64_t link_lost = 0;
     std::uint64_t upstream_lost = 0;
@@ -106,7 +112,7 @@ class Stage {
     trace.incarnation(service_.heartbeat.incarnation());
     trace.index(next_index_);
     trace.received(received);
-    if (!deliver(writer_, out_, trace, lossless_, service_.stop)) {
+    if (!deliver(writer_, out_, trace, lossless_, service_.stop, pulse_)) {
       service_.heartbeat.count_loss(LossCause::publishing);
       return;
     }
@@ -117,6 +123,7 @@ class Stage {
   }
 
   Service& service_;
+  Pulse& pulse_;
   Process<In, Out> process_;
   bool lossless_;
   Writer<Out> writer_;
