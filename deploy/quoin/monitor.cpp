@@ -43,14 +43,16 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   return report;
 }
 
-Monitor::Monitor(const Deployment& deployment)
+Monitor::Monitor(const Deployment& deployment, const std::string& host)
     : deployment_(deployment),
       participant_(runtime::participant_config(deployment, "quoin")),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
   for (const ServiceConfig& service : deployment.services) {
-    services_[service.name].method = service.method;
-    if (find_kind(service.kind)->output != MessageType::corners) continue;
+    ServiceWatch& service_watch = services_[service.name];
+    service_watch.method = service.method;
+    service_watch.here = service.host == host;
+    if (!service_watch.here || find_kind(service.kind)->output != MessageType::corners) continue;
     CornerWatch watch;
     watch.name = service.name;
     watch.source = source_of(deployment, service);
@@ -135,7 +137,7 @@ std::string Monitor::never_active() const {
   const std::lock_guard lock(mutex_);
   std::string names;
   for (const auto& [name, watch] : services_) {
-    if (watch.was_active) continue;
+    if (watch.was_active || !watch.here) continue;
     names += (names.empty() ? "" : ", ") + name;
     const std::string detail = watch.incarnations.total().detail;
     if (!detail.empty()) names += " (" + detail + ")";
@@ -147,6 +149,7 @@ std::map<std::string, std::set<int>> Monitor::processes() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, std::set<int>> processes;
   for (const auto& [name, watch] : services_) {
+    if (!watch.here) continue;
     for (const auto& [incarnation, process] : watch.process_ids) processes[name].insert(process);
   }
   return processes;
@@ -175,7 +178,7 @@ DeploymentFigures Monitor::figures() const {
       // What a killed process received after its last heartbeat shows in its results alone.
       entry.report.received = std::max(entry.report.received, entry.report.published);
     }
-    figures.services.push_back(std::move(entry));
+    if (watch.here) figures.services.push_back(std::move(entry));
   }
   for (const CornerWatch& watch : corners_) {
     CornerFigures corner;
@@ -218,8 +221,11 @@ void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout
 void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
   for (CornerWatch& watch : corners_) {
+    const ServiceWatch& source = services_.at(watch.source);
     if (watch.accounting.received() > 0) {
-      watch.accounting.finish(services_.at(watch.source).incarnations.numbered_by_newest());
+      // A source on another host that goes on without us: its further scans are no loss.
+      if (!source.here && !source.ended) continue;
+      watch.accounting.finish(source.incarnations.numbered_by_newest());
     } else {
       watch.lost_at_start = scans_published(watch.source);
     }
