@@ -26,14 +26,14 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment,
   int last_level = 0;
   for (const ServiceConfig& service : deployment.services) {
     ProcessPlan plan;
-    plan.name = service.name;
+    plan.name = label(service);
     plan.program = folder / find_kind(service.kind)->program;
     if (::access(plan.program.c_str(), X_OK) != 0) {
       throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
                                service.name + "' of kind " + service.kind + " needs it");
     }
     plan.arguments = {"--deployment", std::filesystem::absolute(deployment.file).string(),
-                      "--service", service.name};
+                      "--service", plan.name};
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }
@@ -41,7 +41,8 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment,
     plan.source = service.input.empty() && publishes;
     plan.level = service.input.empty() ? 0 : levels.at(service.input) + 1;
     plan.restart = service.restart == RestartPolicy::always;
-    levels[service.name] = plan.level;
+    int& level = levels[service.name];  // of the last of its instances
+    level = std::max(level, plan.level);
     if (!publishes) behind.push_back(plans.size());
     last_level = std::max(last_level, plan.level);
     plans.push_back(std::move(plan));

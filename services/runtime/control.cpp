@@ -30,12 +30,17 @@ void ControlServer::run() {
   while (!ending_) {
     wait_set_.wait(std::chrono::seconds(1));
     while (!ending_ && reader_.take(request)) {
-      if (request.service() != service_.config.name) continue;
+      const bool addressed = request.service() == label(service_.config);
+      if (!addressed && request.service() != service_.config.name) continue;
       msg::ControlReply reply;
       reply.service(request.service());
       reply.requester(request.requester());
       reply.request(request.request());
       try {
+        if (!addressed) {
+          throw std::invalid_argument("it has several instances; name one, such as " +
+                                      label(service_.config));
+        }
         handler_(request, reply);
       } catch (const std::exception& error) {
         reply.accepted(false);

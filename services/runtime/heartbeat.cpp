@@ -39,7 +39,7 @@ Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deploym
     : incarnation_(static_cast<std::uint64_t>(now_ns())),
       rate_since_(now_ns()),
       writer_(participant, deploy::status_topic(deployment.name_space), QosPreset::state) {
-  status_.service(config.name);
+  status_.service(label(config));
   status_.kind(config.kind);
   status_.method(config.method);
   status_.host(host_name());

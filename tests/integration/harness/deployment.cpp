@@ -31,12 +31,13 @@ Process TestDeployment::quoin(std::vector<std::string> arguments) const {
 CornerRecorder::CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
                                const std::string& service)
     : reader_(participant, deployment.topic(service),
-              runtime::qos_preset(deployment.deployment().service(service).qos)) {}
+              runtime::output_qos(deployment.deployment().service(service))) {}
 
 std::size_t CornerRecorder::poll() {
   msg::Corners message;
   while (reader_.take(message)) {
     accounting_.receive(message.header());
+    if (accounting_.last_was_duplicate()) continue;
     messages_.push_back(message);
   }
   return messages_.size();
