@@ -58,7 +58,7 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   return report;
 }
 
-Monitor::Monitor(const Deployment& deployment)
+Monitor::Monitor(const Deployment& deployment, const std::string& host)
     : deployment_(deployment),
       participant_(runtime::participant_config(deployment, "quoin")),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
@@ -67,7 +67,8 @@ Monitor::Monitor(const Deployment& deployment)
     ServiceWatch& service_watch = services_[label(service)];
     service_watch.name = service.name;
     service_watch.method = service.method;
-    if (find_kind(service.kind)->output != MessageType::corners) continue;
+    service_watch.here = service.host == host;
+    if (!service_watch.here || find_kind(service.kind)->output != MessageType::corners) continue;
     // Its instances write to one topic.
     if (std::any_of(corners_.begin(), corners_.end(),
                     [&](const CornerWatch& watch) { return watch.name == service.name; })) {
@@ -172,7 +173,7 @@ std::string Monitor::never_active() const {
   const std::lock_guard lock(mutex_);
   std::string names;
   for (const auto& [name, watch] : services_) {
-    if (watch.was_active) continue;
+    if (watch.was_active || !watch.here) continue;
     names += (names.empty() ? "" : ", ") + name;
     const std::string detail = watch.incarnations.total().detail;
     if (!detail.empty()) names += " (" + detail + ")";
@@ -184,6 +185,7 @@ std::map<std::string, std::set<int>> Monitor::processes() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, std::set<int>> processes;
   for (const auto& [name, watch] : services_) {
+    if (!watch.here) continue;
     for (const auto& [incarnation, process] : watch.process_ids) processes[name].insert(process);
   }
   return processes;
@@ -216,7 +218,7 @@ DeploymentFigures Monitor::figures() const {
       // What a killed process received after its last heartbeat shows in its results alone.
       entry.report.received = std::max(entry.report.received, entry.report.published);
     }
-    figures.services.push_back(std::move(entry));
+    if (watch.here) figures.services.push_back(std::move(entry));
   }
   for (const CornerWatch& watch : corners_) {
     CornerFigures corner;
@@ -261,7 +263,9 @@ void Monitor::account_for_the_end() {
   for (CornerWatch& watch : corners_) {
     if (watch.accounting.received() > 0) {
       const ServiceWatch* source = writer_of(watch.source_trace);
-      if (source != nullptr) watch.accounting.finish(source->incarnations.numbered_by_newest());
+      // A source on another host that goes on without us: its further scans are no loss.
+      if (source == nullptr || (!source->here && !source->ended)) continue;
+      watch.accounting.finish(source->incarnations.numbered_by_newest());
     } else {
       watch.lost_at_start = scans_published(watch.source);
     }

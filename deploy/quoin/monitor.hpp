@@ -27,26 +27,28 @@ namespace quoin::deploy {
 /// What a heartbeat says, in the terms of a report.
 [[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
-/// Listens to the heartbeats of a deployment and to what its corner services publish, in a thread
-/// of its own.
+/// Listens to the heartbeats of a deployment and to what the corner services of one host's share of
+/// it publish, in a thread of its own.
 class Monitor {
  public:
   /// Throws std::runtime_error when DDS refuses.
-  explicit Monitor(const Deployment& deployment);
+  Monitor(const Deployment& deployment, const std::string& host);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
   /// Whether the service has ever been active.
   [[nodiscard]] bool was_active(const std::string& name) const;
+  /// The share's, as below.
   [[nodiscard]] bool all_were_active() const;
-  /// "x (waiting for 2 readers), y" for those that were never active.
+  /// "x (waiting for 2 readers), y" for those of the share that were never active.
   [[nodiscard]] std::string never_active() const;
-  /// Processes that report as a service of this deployment, by service.
+  /// Processes that report as a service of the share, by service.
   [[nodiscard]] std::map<std::string, std::set<int>> processes() const;
   [[nodiscard]] int newest_process(const std::string& name) const;
 
-  /// Everything but durations and restarts, which the supervisor knows.
+  /// Of the share, but for the scans of all sources; everything but durations and restarts, which
+  /// the supervisor knows.
   [[nodiscard]] DeploymentFigures figures() const;
 
   /// After all services have ended: waits up to `timeout` for the last heartbeats of `names`, takes
@@ -59,6 +61,7 @@ class Monitor {
     Incarnations incarnations;
     std::map<std::uint64_t, int> process_ids;  // by incarnation
     std::string method;
+    bool here = true;  ///< in the share
     bool was_active = false;
     bool ended = false;
   };

@@ -7,35 +7,18 @@
 #include <stdexcept>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "services/runtime/interfaces.hpp"
+#include "services/runtime/network_qos_impl.hpp"
 #include "services/runtime/participant_impl.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
-
-constexpr const char* loopback = "127.0.0.1";
-// Discovery asks the ports of this many participants on the host; the port formula of the RTPS
-// standard has room for 119 in a domain.
-constexpr std::uint32_t max_participants = 100;
-// Holds several scans, so that a burst does not overflow the socket; the kernel may grant less.
-constexpr std::uint32_t socket_buffer_bytes = 4U << 20U;
-
-rtps::Locator_t loopback_locator() {
-  rtps::Locator_t locator;
-  locator.kind = LOCATOR_KIND_UDPv4;
-  rtps::IPLocator::setIPv4(locator, loopback);
-  locator.port = 0;  // filled in from domain and participant number
-  return locator;
-}
 
 // Participants of one process talk through the transport like all others: the short cut inside a
 // process never repeats a sample that a full lossless reader had to reject.
@@ -45,30 +28,10 @@ void disable_intraprocess_delivery() {
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 }
 
-dds::DomainParticipantQos participant_qos(const ParticipantConfig& config) {
-  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
+                                          const std::vector<std::string>& addresses) {
+  dds::DomainParticipantQos qos = network_qos(config, addresses);
   qos.name(config.name);
-
-  auto udp = std::make_shared<UDPv4TransportDescriptor>();
-  udp->interfaceWhiteList = {loopback};
-  udp->maxInitialPeersRange = max_participants;
-  udp->sendBufferSize = socket_buffer_bytes;
-  udp->receiveBufferSize = socket_buffer_bytes;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp);
-
-  auto& builtin = qos.wire_protocol().builtin;
-  builtin.initialPeersList.push_back(loopback_locator());
-  builtin.metatrafficUnicastLocatorList.push_back(loopback_locator());
-  qos.wire_protocol().default_unicast_locator_list.push_back(loopback_locator());
-
-  // A dead process is noticed after the lease; new ones are announced often at first, because one
-  // lost announcement would otherwise delay the start by a whole period.
-  auto& discovery = builtin.discovery_config;
-  discovery.leaseDuration = eprosima::fastrtps::Duration_t(5, 0);
-  discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(1, 0);
-  discovery.initial_announcements.count = 10;
-  discovery.initial_announcements.period = eprosima::fastrtps::Duration_t(0, 50'000'000);
   return qos;
 }
 
@@ -82,13 +45,14 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment,
 Participant::Participant(const ParticipantConfig& config)
     : impl_(std::make_unique<Impl>(config.name)) {
   disable_intraprocess_delivery();
+  const auto addresses = resolve_interfaces(config.network.interfaces, host_addresses());
   auto* factory = dds::DomainParticipantFactory::get_instance();
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
-                                                   participant_qos(config), &impl_->endpoints,
-                                                   dds::StatusMask::none());
+                                                   participant_qos(config, addresses),
+                                                   &impl_->endpoints, dds::StatusMask::none());
   if (impl_->participant == nullptr) {
-    throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) +
-                             " on 127.0.0.1; is the loopback interface up, and are fewer than " +
+    throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) + " on " +
+                             addresses.front() + "; is that interface up, and are fewer than " +
                              std::to_string(max_participants) + " participants running in it?");
   }
   impl_->publisher = impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);

@@ -20,6 +20,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using tests::Process;
+using tests::processes_naming;
 using tests::StatusRecorder;
 using tests::TestDeployment;
 
@@ -29,20 +30,6 @@ std::string chain(const std::string& source_parameters) {
          "  - {name: walls, kind: segmentation, input: front, method: iepf}\n"
          "  - {name: wctls, kind: line_fitting, input: walls, method: wctls}\n"
          "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n";
-}
-
-/// Processes whose command line names `text`.
-std::set<pid_t> processes_naming(const std::string& text) {
-  std::set<pid_t> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream file(entry.path() / "cmdline");
-    const std::string command((std::istreambuf_iterator<char>(file)),
-                              std::istreambuf_iterator<char>());
-    if (command.find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
-  }
-  return found;
 }
 
 std::set<std::string> shared_memory_files() {
