@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "services/runtime/clock.hpp"
+#include "services/runtime/interfaces.hpp"
 
 namespace quoin::runtime {
 
@@ -23,11 +24,6 @@ std::uint64_t resident_bytes() {
   std::uint64_t resident = 0;
   file >> total >> resident;
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
 double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
