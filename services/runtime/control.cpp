@@ -65,7 +65,11 @@ void ControlServer::receive() {
   while (!ending_) {
     wait_set_.wait(std::chrono::seconds(1));
     while (!ending_ && reader_.take(request)) {
-      if (request.service() == service_.config.name) accept(request);
+      if (request.service() == label(service_.config)) {
+        accept(request);
+      } else if (request.service() == service_.config.name) {
+        refuse(request, "it has several instances; name one, such as " + label(service_.config));
+      }
     }
   }
 }

@@ -52,14 +52,14 @@ class Recorder {
   Recorder(runtime::Participant& participant, const TestDeployment& deployment,
            const std::string& service)
       : reader_(participant, deployment.topic(service),
-                runtime::qos_preset(deployment.deployment().service(service).qos)) {}
+                runtime::output_qos(deployment.deployment().service(service))) {}
 
   /// Takes what is there; returns the number of messages so far.
   std::size_t poll() {
     T message;
     while (reader_.take(message)) {
       accounting_.receive(message.header());
-      messages_.push_back(message);
+      if (!accounting_.last_was_duplicate()) messages_.push_back(message);
     }
     return messages_.size();
   }
