@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -90,6 +91,8 @@ struct ServiceConfig {
   /// Of this instance's claim to the output, when there are several of one name; the strongest that
   /// lives is heard.
   std::optional<int> strength;
+  /// With a strength: how long this instance may be silent before the next one is heard.
+  std::chrono::milliseconds lease{100};
   Position position;  ///< of the service in the file
 };
 

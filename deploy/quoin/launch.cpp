@@ -51,17 +51,18 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
   int last_level = 0;
   for (const ServiceConfig& service : deployment.services) {
     const int level = service.input.empty() ? 0 : levels.at(service.input) + 1;
-    levels[service.name] = level;
+    int& level_of_name = levels[service.name];  // of the last of its instances
+    level_of_name = std::max(level_of_name, level);
     if (service.host != host) continue;
     ProcessPlan plan;
-    plan.name = service.name;
+    plan.name = label(service);
     plan.program = folder / find_kind(service.kind)->program;
     if (::access(plan.program.c_str(), X_OK) != 0) {
       throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
                                service.name + "' of kind " + service.kind + " needs it");
     }
     plan.arguments = {"--deployment", std::filesystem::absolute(deployment.file).string(),
-                      "--service", service.name};
+                      "--service", plan.name};
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }

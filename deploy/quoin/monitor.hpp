@@ -57,6 +57,7 @@ class Monitor {
 
  private:
   struct ServiceWatch {
+    std::string name;  // without a strength
     Incarnations incarnations;
     std::map<std::uint64_t, int> process_ids;  // by incarnation
     std::string method;
@@ -67,6 +68,7 @@ class Monitor {
   struct CornerWatch {
     std::string name;
     std::string source;
+    msg::StageTrace source_trace;  // of the last message
     std::unique_ptr<runtime::Reader<msg::Corners>> reader;
     runtime::ScanAccounting accounting;
     std::uint64_t lost_at_start = 0;
@@ -80,6 +82,7 @@ class Monitor {
   void take(const msg::ServiceStatus& status);
   void take(CornerWatch& watch, const msg::Corners& message);
   void account_for_the_end();
+  [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
   [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
 
   const Deployment& deployment_;
@@ -87,7 +90,7 @@ class Monitor {
   runtime::Reader<msg::ServiceStatus> status_reader_;
   runtime::WaitSet wait_set_;
   mutable std::mutex mutex_;
-  std::map<std::string, ServiceWatch> services_;
+  std::map<std::string, ServiceWatch> services_;  // by label
   std::vector<CornerWatch> corners_;
   msg::ServiceStatus status_;
   msg::Corners message_;

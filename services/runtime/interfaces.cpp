@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <unistd.h>
 
 namespace quoin::runtime {
 
@@ -73,9 +74,13 @@ std::vector<InterfaceAddress> host_addresses() {
   return addresses;
 }
 
-std::vector<std::string> resolve_interfaces(const std::vector<std::string>& interfaces,
-                                            const std::vector<InterfaceAddress>& host) {
-  if (interfaces.empty()) return {"127.0.0.1"};
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+std::vector<InterfaceAddress> named_interfaces(const std::vector<std::string>& interfaces,
+                                               const std::vector<InterfaceAddress>& host) {
   std::vector<InterfaceAddress> named;
   for (const InterfaceAddress& candidate : host) {
     if (std::any_of(interfaces.begin(), interfaces.end(),
@@ -83,6 +88,13 @@ std::vector<std::string> resolve_interfaces(const std::vector<std::string>& inte
       named.push_back(candidate);
     }
   }
+  return named;
+}
+
+std::vector<std::string> resolve_interfaces(const std::vector<std::string>& interfaces,
+                                            const std::vector<InterfaceAddress>& host) {
+  if (interfaces.empty()) return {"127.0.0.1"};
+  const std::vector<InterfaceAddress> named = named_interfaces(interfaces, host);
   if (named.empty()) {
     throw deploy::DeploymentError(
         {"this host has none of the interfaces " + joined(interfaces) + "; it has " +

@@ -20,8 +20,6 @@ using eprosima::fastrtps::Duration_t;
 
 namespace {
 
-// Holds several scans, so that a burst does not overflow the socket; the kernel may grant less.
-constexpr std::uint32_t socket_buffer_bytes = 4U << 20U;
 // Of the RTPS standard.
 constexpr const char* multicast_group = "239.255.0.1";
 constexpr std::uint32_t multicast_port = 7400;

@@ -42,12 +42,14 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment,
   return {deployment.domain, deployment.name_space + "/" + name, deployment.network};
 }
 
-Participant::Participant(const ParticipantConfig& config) : impl_(std::make_unique<Impl>()) {
+Participant::Participant(const ParticipantConfig& config)
+    : impl_(std::make_unique<Impl>(config.name)) {
   disable_intraprocess_delivery();
   const auto addresses = resolve_interfaces(config.network.interfaces, host_addresses());
   auto* factory = dds::DomainParticipantFactory::get_instance();
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
-                                                   participant_qos(config, addresses));
+                                                   participant_qos(config, addresses),
+                                                   &impl_->endpoints, dds::StatusMask::none());
   if (impl_->participant == nullptr && config.server) {
     const deploy::ServerAddress& server = config.network.servers.at(*config.server);
     throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
@@ -71,6 +73,10 @@ Participant::~Participant() {
   dds::DomainParticipantFactory::get_instance()->delete_participant(impl_->participant);
 }
 
+std::vector<std::string> Participant::written_topics() const {
+  return impl_->endpoints.written_topics();
+}
+
 dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSupport& type) {
   if (auto* known = participant->lookup_topicdescription(name)) {
     return dynamic_cast<dds::Topic*>(known);
@@ -87,46 +93,10 @@ dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSup
   return made;
 }
 
-namespace {
-
-// The policies that writers and readers must agree on.
-std::string policy_name(dds::QosPolicyId_t policy) {
-  switch (policy) {
-    case dds::DURABILITY_QOS_POLICY_ID:
-      return "durability";
-    case dds::DEADLINE_QOS_POLICY_ID:
-      return "deadline";
-    case dds::LATENCYBUDGET_QOS_POLICY_ID:
-      return "latency budget";
-    case dds::OWNERSHIP_QOS_POLICY_ID:
-      return "ownership";
-    case dds::LIVELINESS_QOS_POLICY_ID:
-      return "liveliness";
-    case dds::RELIABILITY_QOS_POLICY_ID:
-      return "reliability";
-    case dds::DESTINATIONORDER_QOS_POLICY_ID:
-      return "destination order";
-    case dds::DATAREPRESENTATION_QOS_POLICY_ID:
-      return "data representation";
-    default:
-      return "policy " + std::to_string(static_cast<int>(policy));
-  }
-}
-
-}  // namespace
-
 void MatchState::set_matched(int count) {
   const std::lock_guard lock(mutex_);
   matched_ = static_cast<std::size_t>(std::max(count, 0));
   changed_.notify_all();
-}
-
-void MatchState::add_incompatible(const std::string& topic, dds::QosPolicyId_t policy) {
-  const std::lock_guard lock(mutex_);
-  const std::string text = topic + ": " + policy_name(policy);
-  if (std::find(incompatible_.begin(), incompatible_.end(), text) == incompatible_.end()) {
-    incompatible_.push_back(text);
-  }
 }
 
 std::size_t MatchState::matched() const {
@@ -137,11 +107,6 @@ std::size_t MatchState::matched() const {
 bool MatchState::wait(std::size_t count, std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, timeout, [&] { return matched_ >= count; });
-}
-
-std::vector<std::string> MatchState::incompatible() const {
-  const std::lock_guard lock(mutex_);
-  return incompatible_;
 }
 
 }  // namespace quoin::runtime

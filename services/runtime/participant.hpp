@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "deploy/deployment/deployment.hpp"
 
@@ -33,6 +34,9 @@ class Participant {
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
+
+  /// Topics that other participants are known to write to.
+  [[nodiscard]] std::vector<std::string> written_topics() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

@@ -16,6 +16,7 @@
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/integration/harness/hosts.hpp"
+#include "tests/integration/harness/leftovers.hpp"
 
 namespace quoin {
 namespace {
