@@ -29,7 +29,8 @@ using tests::StatusRecorder;
 using tests::TestDeployment;
 
 constexpr int rate_hz = 20;
-constexpr int scans_of_a_cut = 5 * rate_hz;
+// Five seconds, and one more since the last heartbeat may be that old.
+constexpr int scans_of_a_cut = 6 * rate_hz;
 
 const char* const chain = R"(
   - {name: front, kind: simulated, host: lidar, parameters: {rate_hz: 20}}
@@ -78,7 +79,7 @@ class Robot {
         service, [&](const auto& status) { return status.published() >= count; }, 40s);
   }
 
-  /// Cuts the link of `host` for as long as the source takes for five seconds of scans.
+  /// Cuts the link of `host` for as long as the source takes for these scans.
   [[nodiscard]] bool cut_for_five_seconds(const std::string& host) {
     hosts_.cut(host);
     const bool published = has_published("front", latest("front").published() + scans_of_a_cut);
