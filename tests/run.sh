@@ -65,7 +65,7 @@ finish() {
 
 step "packages"
 deploy/install_packages.sh
-if $fuzzing && ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
+if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
 step "release build"
 cmake --preset release -DQUOIN_TESTS=ON -DQUOIN_BENCHMARKS=ON

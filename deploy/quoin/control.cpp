@@ -13,6 +13,7 @@
 
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/network_options.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
@@ -36,12 +37,14 @@ struct ControlOptions {
 /// Talks to one service of a running deployment.
 class Requester {
  public:
-  Requester(int domain, const std::string& name_space, std::string service)
+  Requester(const Deployment& deployment, std::string service)
       : service_(std::move(service)),
         name_("quoin_" + std::to_string(::getpid())),
-        participant_({domain, name_space + "/" + name_}),
-        writer_(participant_, control_request_topic(name_space), runtime::QosPreset::control),
-        reader_(participant_, control_reply_topic(name_space), runtime::QosPreset::control) {
+        participant_(runtime::participant_config(deployment, name_)),
+        writer_(participant_, control_request_topic(deployment.name_space),
+                runtime::QosPreset::control),
+        reader_(participant_, control_reply_topic(deployment.name_space),
+                runtime::QosPreset::control) {
     wait_set_.add(reader_);
   }
 
@@ -114,19 +117,15 @@ void print(const msg::ControlReply& reply) {
 }
 
 int run(const ControlOptions& options, msg::ControlAction action) {
-  auto [domain, name_space] = options.network;
-  if (!options.file.empty()) {
-    const Deployment deployment = load_deployment(options.file);
-    (void)deployment.service(options.service);  // a name that is none is told at once
-    domain = deployment.domain;
-    name_space = deployment.name_space;
-  }
-  Requester requester(domain, name_space, options.service);
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  // A name that is none is told at once.
+  if (!options.file.empty()) (void)deployment.service(options.service);
+  Requester requester(deployment, options.service);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                            std::chrono::duration<double>(options.wait));
   if (!requester.reach(deadline)) {
-    std::cerr << "no service '" << options.service << "' of namespace '" << name_space
-              << "' answers in domain " << domain
+    std::cerr << "no service '" << options.service << "' of namespace '" << deployment.name_space
+              << "' answers in domain " << deployment.domain
               << "; is it running, and does it have methods? (quoin status shows who is there)\n";
     return exit_failure;
   }
