@@ -35,6 +35,14 @@ struct ExportPlan {
   std::vector<ExportedService> services;
 };
 
+/// For names of units and containers that run discovery servers; no service is called so.
+inline constexpr const char* discovery_id = "discovery-servers";
+
+/// Whether hosts have to run discovery servers.
+[[nodiscard]] inline bool has_discovery_servers(const ExportPlan& plan) {
+  return plan.deployment->network.discovery == Discovery::server;
+}
+
 /// `host`: "" for a deployment that names no hosts. Throws std::out_of_range when the host fits
 /// not.
 [[nodiscard]] ExportPlan plan_export(const Deployment& deployment, const std::string& host);

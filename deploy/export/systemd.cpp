@@ -24,6 +24,7 @@ UnitFile target(const ExportPlan& plan) {
   for (const ExportedService& service : plan.services) {
     text += "Wants=" + unit_name(plan, service.id) + "\n";
   }
+  if (has_discovery_servers(plan)) text += "Wants=" + unit_name(plan, discovery_id) + "\n";
   text += "\n[Install]\nWantedBy=multi-user.target\n";
   return {plan.id + ".target", text};
 }
@@ -92,25 +93,46 @@ constexpr const char* hardening =
     "SystemCallErrorNumber=EPERM\n"
     "DevicePolicy=closed\n";
 
-UnitFile unit(const ExportPlan& plan, const ExportedService& service,
-              const std::filesystem::path& programs) {
-  std::string text = head(plan);
-  text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + service.label + " (" +
-          service.config->kind + ")\n";
-  text += "PartOf=" + plan.id + ".target\n";
+/// The section [Unit], to which more lines may be added.
+std::string unit_section(const ExportPlan& plan, const std::string& what) {
+  std::string text = head(plan) + "[Unit]\nDescription=Quoin " + plan.deployment->name_space +
+                     ": " + what + "\nPartOf=" + plan.id + ".target\n";
   if (!plan.deployment->network.interfaces.empty()) {
     text += "Wants=network-online.target\nAfter=network-online.target\n";
   }
+  return text + "StartLimitIntervalSec=0\n";
+}
+
+std::string environment_line(const ExportPlan& plan) {
+  return "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
+         plan.id + "\n";
+}
+
+/// Ends at once, in order, on a host that has the address of none of the servers.
+UnitFile discovery_unit(const ExportPlan& plan, const std::filesystem::path& programs) {
+  std::string text = unit_section(plan, "discovery servers");
+  text += "\n[Service]\nType=exec\nExecStart=" + unit_program((programs / "quoin").string()) +
+          " discovery " + unit_argument(plan.file.string()) + "\n" + environment_line(plan);
+  text += "Restart=on-failure\nRestartPreventExitStatus=2\n";
+  // Until those who knew it have forgotten the server that died.
+  text +=
+      "RestartSec=" + std::to_string(discovery_pause(plan.deployment->network).count()) + "ms\n";
+  text += "TimeoutStopSec=10s\n\n";
+  text += hardening + device_lines({}) + network_lines(plan, {});
+  return {unit_name(plan, discovery_id), text};
+}
+
+UnitFile unit(const ExportPlan& plan, const ExportedService& service,
+              const std::filesystem::path& programs) {
+  std::string text = unit_section(plan, service.label + " (" + service.config->kind + ")");
   // Started behind those who read its output and stopped before them.
   for (const std::string& id : service.after) text += "After=" + unit_name(plan, id) + "\n";
-  text += "StartLimitIntervalSec=0\n";
 
   text +=
       "\n[Service]\nType=notify\nExecStart=" + unit_program((programs / service.program).string()) +
       " --deployment " + unit_argument(plan.file.string()) + " --service " +
       unit_argument(service.label) + "\n";
-  text += "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
-          plan.id + "\n";
+  text += environment_line(plan);
   text += restart_lines(service);
   // A lookup of a device's host name alone may take ten seconds.
   text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
@@ -125,6 +147,7 @@ UnitFile unit(const ExportPlan& plan, const ExportedService& service,
 
 std::vector<UnitFile> systemd_units(const ExportPlan& plan, const std::filesystem::path& programs) {
   std::vector<UnitFile> units{target(plan)};
+  if (has_discovery_servers(plan)) units.push_back(discovery_unit(plan, programs));
   for (const ExportedService& service : plan.services) {
     units.push_back(unit(plan, service, programs));
   }

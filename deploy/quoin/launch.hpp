@@ -15,8 +15,8 @@ namespace quoin::deploy {
 /// The folder of this executable, where the programs of the services are.
 [[nodiscard]] std::filesystem::path program_folder();
 
-/// Name of the process that runs the discovery servers of this host.
-inline constexpr const char* discovery_process = "discovery";
+/// Name of the process that runs the discovery servers of this host; no service is called so.
+inline constexpr const char* discovery_process = "discovery-servers";
 
 /// How to start the services of `deployment` that run on `host` (see host_to_run), and the
 /// discovery servers that have one of this host's addresses. `observers` tells how many readers of

@@ -50,6 +50,11 @@ Participant::Participant(const ParticipantConfig& config)
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
                                                    participant_qos(config, addresses),
                                                    &impl_->endpoints, dds::StatusMask::none());
+  if (impl_->participant == nullptr && config.server) {
+    const deploy::ServerAddress& server = config.network.servers.at(*config.server);
+    throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
+                             std::to_string(server.port) + "; does another process use that port?");
+  }
   if (impl_->participant == nullptr) {
     throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) + " on " +
                              addresses.front() + "; is that interface up, and are fewer than " +

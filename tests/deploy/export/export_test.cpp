@@ -189,6 +189,25 @@ TEST(Systemd, OnANetworkItWaitsForIt) {
   EXPECT_THAT(units[2].text, HasSubstr("--service lines@5\n"));
 }
 
+TEST(Systemd, DiscoveryServersAreAUnitThatStartsAgainWhenTheDeadOneIsForgotten) {
+  const Deployment read = deployment(R"(
+version: 1
+network: {interfaces: eth0, servers: [10.7.0.1, 10.7.0.3], lease: 8 s}
+services:
+  - {name: front, kind: simulated}
+)");
+  const auto units = systemd_units(plan_export(read, ""), "/usr/local/bin");
+  ASSERT_THAT(units, SizeIs(3));
+  EXPECT_THAT(units[0].text, HasSubstr("Wants=quoin-quoin-discovery-servers.service\n"));
+  EXPECT_THAT(text_of(units, "quoin-quoin-discovery-servers.service"),
+              AllOf(HasSubstr("ExecStart=/usr/local/bin/quoin discovery /etc/quoin/robot.yaml\n"),
+                    HasSubstr("\nRestartSec=9000ms\n"), HasSubstr("\nDynamicUser=yes\n"),
+                    HasSubstr("\nAfter=network-online.target\n")));
+  const YAML::Node compose = YAML::Load(compose_file(plan_export(read, ""), {"quoin"}));
+  EXPECT_EQ(compose["services"]["discovery-servers"]["command"].as<std::vector<std::string>>(),
+            (std::vector<std::string>{"quoin", "discovery", "/etc/quoin/robot.yaml"}));
+}
+
 TEST(Systemd, PathsCannotAddDirectives) {
   const Deployment read = deployment(robot, "/etc/a b/50%\n[Service]\nUser=root\n\\.yaml");
   for (const UnitFile& unit : systemd_units(plan_export(read, ""), "/opt/quoin $x")) {
