@@ -3,6 +3,7 @@
 #include "deploy/quoin/launch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -33,6 +34,9 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment) {
   plan.program = program_folder() / "quoin";
   plan.arguments = {"discovery", std::filesystem::absolute(deployment.file).string()};
   plan.level = std::numeric_limits<int>::max();  // others are found until the end
+  // A new server at the same address would be taken for the one that died, and not be told of
+  // those that it should know, until they have forgotten that one.
+  plan.least_pause = std::chrono::milliseconds(static_cast<int>(network.lease * 1000.0) + 1000);
   return plan;
 }
 
