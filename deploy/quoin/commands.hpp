@@ -38,6 +38,8 @@ struct Command {
 [[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
 [[nodiscard]] Command add_set(CLI::App& app);
+[[nodiscard]] Command add_discovery(CLI::App& app);
+[[nodiscard]] Command add_doctor(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

@@ -17,7 +17,6 @@
 #include "deploy/deployment/kinds.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
-#include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "deploy/report/table.hpp"
 #include "services/runtime/participant.hpp"
@@ -113,7 +112,7 @@ class Listener {
         display_(options.json ? Display::Mode::errors : Display::Mode::automatic) {
     for (const ServiceConfig* service : selection.services) {
       readers_.push_back(std::make_unique<runtime::Reader<msg::Corners>>(
-          participant_, output_topic(deployment, *service), onlooker_qos(*service)));
+          participant_, output_topic(deployment, *service), runtime::onlooker_qos(*service)));
       wait_set_.add(*readers_.back());
     }
   }

@@ -30,9 +30,6 @@ struct CornerChain {
 /// Throws std::out_of_range when `name` is no corner service of the deployment.
 [[nodiscard]] CornerChain corner_chain(const Deployment& deployment, const std::string& name);
 
-/// How to read what a service publishes without slowing it down, as a lossless reader would.
-[[nodiscard]] runtime::QosPreset onlooker_qos(const ServiceConfig& service);
-
 /// Brings the segments, lines and corners of one scan together again.
 class ScanJoin {
  public:

@@ -84,6 +84,20 @@ std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size
   return lines;
 }
 
+std::vector<std::string> status_lines(const std::vector<ServiceFigures>& services) {
+  std::vector<Row> rows{{"service", "host", "kind/method", "state", "Hz", "received", "published",
+                         "lost", "p50 / p99 [ms]", "RSS MiB", "age [s]"}};
+  for (const ServiceFigures& service : services) {
+    Row row = service_row(service);
+    row.insert(row.begin() + 1, service.host.empty() ? "-" : service.host);
+    row.back() = service.age < 0.0 ? "-" : fixed(service.age, 1);  // instead of the restarts
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> lines;
+  append_table(rows, 4, std::string::npos, lines);
+  return lines;
+}
+
 std::string progress_line(const DeploymentFigures& figures) {
   std::string line = fixed(figures.duration, 1) + " s";
   for (const CornerFigures& corner : figures.corners) {

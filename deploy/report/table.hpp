@@ -26,7 +26,11 @@ void append_table(const std::vector<std::vector<std::string>>& rows, std::size_t
 [[nodiscard]] std::vector<std::string> table_lines(const DeploymentFigures& figures,
                                                    std::size_t width);
 
-/// The same in one line, for logs: what arrives at the ends, or the services while nothing does.
+/// What services report of themselves, wherever they run, as lines of a table.
+[[nodiscard]] std::vector<std::string> status_lines(const std::vector<ServiceFigures>& services);
+
+/// The figures of a deployment in one line, for logs: what arrives at the ends, or the services
+/// while nothing does.
 [[nodiscard]] std::string progress_line(const DeploymentFigures& figures);
 
 }  // namespace quoin::deploy

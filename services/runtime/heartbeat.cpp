@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/runtime/clock.hpp"
+#include "services/runtime/interfaces.hpp"
 
 namespace quoin::runtime {
 
@@ -24,11 +25,6 @@ std::uint64_t resident_bytes() {
   std::uint64_t resident = 0;
   file >> total >> resident;
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
 double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
@@ -56,7 +52,7 @@ Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deploym
     : incarnation_(static_cast<std::uint64_t>(now_ns())),
       rate_since_(now_ns()),
       writer_(participant, deploy::status_topic(deployment.name_space), QosPreset::state) {
-  status_.service(config.name);
+  status_.service(label(config));
   status_.kind(config.kind);
   status_.method(config.method);
   status_.host(host_name());
@@ -125,6 +121,11 @@ void Heartbeat::count_received(std::uint64_t upstream_lost, std::uint64_t link_l
 void Heartbeat::count_loss(LossCause cause) {
   const std::lock_guard lock(mutex_);
   ++losses_[static_cast<std::size_t>(cause)];
+}
+
+void Heartbeat::count_control_drop() {
+  const std::lock_guard lock(mutex_);
+  ++status_.control_dropped();
 }
 
 void Heartbeat::count_published(std::int64_t scan_published, std::int64_t received,

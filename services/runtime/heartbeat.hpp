@@ -53,6 +53,7 @@ class Heartbeat {
 
   void count_received(std::uint64_t upstream_lost, std::uint64_t link_lost);
   void count_loss(LossCause cause);
+  void count_control_drop();
   /// A result was published: stage times [ns since the Unix epoch] and parts without a result.
   void count_published(std::int64_t scan_published, std::int64_t received, std::int64_t published,
                        std::size_t failures);

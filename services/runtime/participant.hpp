@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "deploy/deployment/deployment.hpp"
 
@@ -14,20 +17,26 @@ struct ParticipantConfig {
   int domain = 0;
   std::string name;  ///< shown by DDS tools
   deploy::NetworkConfig network = {};
+  /// It is this one of the network's discovery servers.
+  std::optional<std::size_t> server = std::nullopt;
 };
 
 /// Of a participant that takes part in `deployment` as <namespace>/`name`.
 [[nodiscard]] ParticipantConfig participant_config(const deploy::Deployment& deployment,
                                                    const std::string& name);
 
-/// A DDS participant that speaks UDP on 127.0.0.1 alone: it opens no other interface, sends no
-/// multicast and leaves no shared-memory file. Throws std::runtime_error when it cannot be created.
+/// A DDS participant that speaks UDP on the interfaces of its network alone (127.0.0.1 when that
+/// names none), sends multicast only for Discovery::multicast, and leaves no shared-memory file.
+/// Throws std::runtime_error when it cannot be created.
 class Participant {
  public:
   explicit Participant(const ParticipantConfig& config);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
+
+  /// Topics that other participants are known to write to.
+  [[nodiscard]] std::vector<std::string> written_topics() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

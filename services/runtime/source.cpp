@@ -53,7 +53,7 @@ class PublishingSource final : public ServiceActivity<Source> {
 int publish_all(Service& service, const std::function<void(Source&)>& body) {
   Writer<msg::Scan> writer(service.participant,
                            deploy::output_topic(service.deployment, service.config),
-                           qos_preset(service.config.qos));
+                           output_qos(service.config));
   service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
     status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));
     status.incompatible_qos(writer.incompatible_qos());
