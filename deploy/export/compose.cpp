@@ -42,7 +42,7 @@ std::string project_name(const ExportPlan& plan) {
 }
 
 std::string restart_policy(const ExportedService& service) {
-  if (service.config->restart == RestartPolicy::never) return "\"no\"";
+  if (service.restart == RestartPolicy::never) return "\"no\"";
   return service.may_finish ? "on-failure" : "unless-stopped";
 }
 
@@ -56,14 +56,13 @@ std::string device_lines(const ExportedService& service, const ComposeOptions& o
 
 std::string service_lines(const ExportPlan& plan, const ExportedService& service,
                           const ComposeOptions& options) {
-  const std::string file =
-      (std::filesystem::path(deployment_folder) / plan.file.filename()).string();
+  const auto file = std::filesystem::path(deployment_folder) / plan.file.filename();
   std::string text = "  " + yaml_text(service.id) + ":\n";
   text += "    image: " + yaml_text(options.image) + "\n";
   text += "    command:\n";
-  for (const std::string& word : {service.program, std::string("--deployment"), file,
-                                  std::string("--service"), service.label}) {
-    text += "      - " + yaml_text(word) + "\n";
+  text += "      - " + yaml_text(service.program) + "\n";
+  for (const std::string& argument : service.arguments(file)) {
+    text += "      - " + yaml_text(argument) + "\n";
   }
   text +=
       "    network_mode: host\n"

@@ -15,6 +15,7 @@
 #include "deploy/export/systemd.hpp"
 #include "deploy/export/visibility.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 
 namespace quoin::deploy {
@@ -69,9 +70,25 @@ void tell_of_remains(const std::filesystem::path& folder, const std::string& ste
   }
 }
 
+/// Addresses tell where discovery servers run: they are exported on their hosts.
+bool serves_here(const Deployment& deployment) {
+  if (deployment.network.discovery != Discovery::server) return false;
+  try {
+    if (serves_discovery(deployment)) return true;
+  } catch (const std::runtime_error&) {
+    // This machine has none of the deployment's interfaces.
+  }
+  std::cerr << "this machine has the address of no discovery server; export on those that do\n";
+  return false;
+}
+
+ExportPlan plan_of(const Deployment& deployment, const ExportOptions& options) {
+  return plan_export(deployment, host_to_run(deployment, options.host), serves_here(deployment));
+}
+
 int export_systemd(const ExportOptions& options) {
   const Deployment deployment = load_deployment(options.file);
-  const ExportPlan plan = plan_export(deployment, options.host);
+  const ExportPlan plan = plan_of(deployment, options);
   const std::filesystem::path programs =
       options.programs.empty() ? program_folder() : std::filesystem::path(options.programs);
   std::vector<UnitFile> units;
@@ -101,7 +118,7 @@ int export_systemd(const ExportOptions& options) {
 
 int export_compose(const ExportOptions& options) {
   const Deployment deployment = load_deployment(options.file);
-  const ExportPlan plan = plan_export(deployment, options.host);
+  const ExportPlan plan = plan_of(deployment, options);
   if (!may_write({options.output}, options.force)) return exit_failure;
   write_whole(options.output, compose_file(plan, options.compose));
   std::cout << options.output << '\n';
