@@ -70,7 +70,8 @@ std::string service_lines(const ExportPlan& plan, const ExportedService& service
       "    restart: " +
       restart_policy(service) +
       "\n"
-      "    user: \"65534:65534\"\n"
+      // Nobody, unless another one is to read the keys.
+      "    user: \"${QUOIN_USER:-65534:65534}\"\n"
       "    read_only: true\n"
       "    cap_drop:\n      - ALL\n"
       "    security_opt:\n      - no-new-privileges:true\n"
@@ -81,6 +82,14 @@ std::string service_lines(const ExportPlan& plan, const ExportedService& service
       "        source: " +
       yaml_text(plan.file.parent_path().string()) + "\n        target: " + deployment_folder +
       "\n        read_only: true\n";
+  if (plan.deployment->security) {
+    const std::string keys =
+        yaml_text(std::filesystem::absolute(plan.deployment->security->directory)
+                      .lexically_normal()
+                      .string());
+    text += "      - type: bind\n        source: " + keys + "\n        target: " + keys +
+            "\n        read_only: true\n";
+  }
   text += device_lines(service, options);
   if (service.after.empty()) return text;
   text += "    depends_on:\n";

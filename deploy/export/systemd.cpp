@@ -65,7 +65,6 @@ std::string network_lines(const ExportPlan& plan, const ExportedService& service
 }
 
 constexpr const char* hardening =
-    "DynamicUser=yes\n"
     "UMask=0077\n"
     "CapabilityBoundingSet=\n"
     "AmbientCapabilities=\n"
@@ -120,6 +119,9 @@ UnitFile unit(const ExportPlan& plan, const ExportedService& service,
     text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
   }
   text += "TimeoutStartSec=30s\nTimeoutStopSec=10s\n\n";
+  // Keys are for one user's eyes only, and a dynamic user has another number at each start.
+  text += plan.deployment->security ? std::string("User=") + user_with_keys + "\n"
+                                    : "DynamicUser=yes\n";
   text += hardening;
   text += device_lines(service);
   text += network_lines(plan, service);

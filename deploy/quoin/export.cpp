@@ -110,6 +110,11 @@ int export_systemd(const ExportOptions& options) {
     std::cerr << "the units cannot start like this: " << obstacle
               << "; install below /usr/local and /etc, for instance\n";
   }
+  if (deployment.security) {
+    std::cerr << "keys are read by one user only: useradd --system " << user_with_keys
+              << ", and chown -R " << user_with_keys << " "
+              << deployment.security->directory.string() << '\n';
+  }
   std::cerr << "to start: copy them to /etc/systemd/system, systemctl daemon-reload, systemctl "
                "enable --now "
             << units.front().name << '\n';
@@ -126,6 +131,10 @@ int export_compose(const ExportOptions& options) {
     if (service.serial_port != "auto") continue;
     std::cerr << "service '" << service.label << "' finds its serial port by itself; its container"
               << " is given " << options.compose.serial_port << " (--serial-port)\n";
+  }
+  if (deployment.security) {
+    std::cerr
+        << "keys are read by one user only: QUOIN_USER=UID:GID is whom the containers run as\n";
   }
   std::cerr << "to start: docker compose -f " << options.output << " up --detach\n";
   return exit_ok;

@@ -259,6 +259,21 @@ TEST(Compose, KeepsPathsAsTheyAre) {
   EXPECT_EQ(walls["command"][2].as<std::string>(), "/etc/quoin/ro\\bot.yaml");
 }
 
+TEST(Export, WithKeysOneUserRunsAll) {
+  const Deployment read = deployment(R"(
+version: 1
+security: {keys: /etc/quoin_keys}
+services: [{name: front, kind: simulated}]
+)");
+  const ExportPlan plan = plan_export(read, "");
+  EXPECT_THAT(systemd_units(plan, "/bin")[1].text,
+              AllOf(HasSubstr("\nUser=quoin\n"), Not(HasSubstr("DynamicUser"))));
+  const YAML::Node mounts =
+      YAML::Load(compose_file(plan, {.image = "quoin"}))["services"]["front"]["volumes"];
+  ASSERT_EQ(mounts.size(), 2U);
+  EXPECT_EQ(mounts[1]["target"].as<std::string>(), "/etc/quoin_keys");
+}
+
 class Files : public testing::Test {
  protected:
   Files() {
