@@ -17,6 +17,7 @@
 #include "deploy/deployment/kinds.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
+#include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "deploy/report/table.hpp"
 #include "services/runtime/participant.hpp"
