@@ -20,14 +20,18 @@ std::filesystem::path program_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
+bool serves_discovery(const Deployment& deployment) {
+  const NetworkConfig& network = deployment.network;
+  if (network.discovery != Discovery::server) return false;
+  const auto addresses = runtime::resolve_interfaces(network.interfaces, runtime::host_addresses());
+  return !runtime::servers_here(network, addresses).empty();
+}
+
 namespace {
 
 /// Nothing when no server of the deployment is on this host.
 std::optional<ProcessPlan> discovery_plan(const Deployment& deployment) {
-  const NetworkConfig& network = deployment.network;
-  if (network.discovery != Discovery::server) return std::nullopt;
-  const auto addresses = runtime::resolve_interfaces(network.interfaces, runtime::host_addresses());
-  if (runtime::servers_here(network, addresses).empty()) return std::nullopt;
+  if (!serves_discovery(deployment)) return std::nullopt;
   ProcessPlan plan;
   plan.name = discovery_process;
   plan.program = program_folder() / "quoin";
