@@ -36,6 +36,7 @@ struct Command {
 [[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
 [[nodiscard]] Command add_set(CLI::App& app);
+[[nodiscard]] Command add_keys(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

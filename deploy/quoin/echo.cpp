@@ -10,6 +10,7 @@
 
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/message_json.hpp"
 #include "deploy/quoin/message_text.hpp"
@@ -33,7 +34,8 @@ struct EchoOptions {
 template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
-  runtime::Participant participant(runtime::participant_config(deployment, "quoin_echo"));
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_echo", observer_identity));
   // Whoever only looks must not slow the writer down, as a lossless reader would.
   const std::string qos = service.qos == "lossless" ? "feature" : service.qos;
   const std::string topic = output_topic(deployment, service);

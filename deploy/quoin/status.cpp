@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/network_options.hpp"
@@ -36,7 +37,8 @@ using Heartbeats = std::map<std::string, msg::ServiceStatus>;
 
 /// The newest heartbeat of each service; returns early once all of the deployment have been heard.
 Heartbeats collect(const Deployment& deployment, double wait) {
-  runtime::Participant participant(runtime::participant_config(deployment, "quoin_status"));
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_status", observer_identity));
   runtime::Reader<msg::ServiceStatus> reader(participant, status_topic(deployment.name_space),
                                              runtime::QosPreset::state);
   runtime::WaitSet wait_set;

@@ -11,7 +11,9 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "deploy/keys/key_check.hpp"
 #include "services/runtime/participant_impl.hpp"
+#include "services/runtime/security.hpp"
 
 namespace quoin::runtime {
 
@@ -48,6 +50,7 @@ void disable_intraprocess_delivery() {
 dds::DomainParticipantQos participant_qos(const ParticipantConfig& config) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(config.name);
+  if (config.security) add_security(*config.security, config.identity, qos);
 
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {loopback};
@@ -74,16 +77,21 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config) {
 
 }  // namespace
 
-ParticipantConfig participant_config(const deploy::Deployment& deployment,
-                                     const std::string& name) {
-  return {deployment.domain, deployment.name_space + "/" + name, deployment.network};
+ParticipantConfig participant_config(const deploy::Deployment& deployment, const std::string& name,
+                                     std::string_view identity) {
+  const std::string keys = identity.empty() ? name : std::string(identity);
+  deploy::require_keys(deployment, {keys});
+  return {deployment.domain, deployment.name_space + "/" + name, deployment.network,
+          deployment.security, keys};
 }
 
 Participant::Participant(const ParticipantConfig& config) : impl_(std::make_unique<Impl>()) {
   disable_intraprocess_delivery();
+  if (config.security) impl_->listener = tell_refusals();
   auto* factory = dds::DomainParticipantFactory::get_instance();
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
-                                                   participant_qos(config));
+                                                   participant_qos(config), impl_->listener.get(),
+                                                   dds::StatusMask::none());
   if (impl_->participant == nullptr) {
     throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) +
                              " on 127.0.0.1; is the loopback interface up, and are fewer than " +
