@@ -136,6 +136,10 @@ void require_keys(const Deployment& deployment, const std::vector<std::string>& 
   if (!problems.empty()) throw DeploymentError(std::move(problems));
 }
 
+std::string authority_name(const std::filesystem::path& directory) {
+  return common_name(parse_certificate(read_file(trust_files(directory, true).authority)).get());
+}
+
 std::chrono::system_clock::time_point certificate_end(const std::filesystem::path& directory,
                                                       const std::string& identity) {
   return valid_until(

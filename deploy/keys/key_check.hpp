@@ -18,6 +18,9 @@ namespace quoin::deploy {
 /// Throws DeploymentError with the problems of all `identities`.
 void require_keys(const Deployment& deployment, const std::vector<std::string>& identities);
 
+/// Common name of the authority. Throws std::runtime_error.
+[[nodiscard]] std::string authority_name(const std::filesystem::path& directory);
+
 /// When the certificate of an identity ends. Throws std::runtime_error.
 [[nodiscard]] std::chrono::system_clock::time_point certificate_end(
     const std::filesystem::path& directory, const std::string& identity);

@@ -27,7 +27,7 @@ auto parse(const std::filesystem::path& file, Function make) {
 }
 
 /// Participants tell authorities apart by name.
-std::string authority_name() {
+std::string new_authority_name() {
   static constexpr char digits[] = "0123456789abcdef";
   std::random_device random;
   std::string name = "Quoin authority ";
@@ -50,7 +50,7 @@ void make_key_directory(const std::filesystem::path& directory, int days, bool r
                              " is there already; --force replaces the authority, which voids all "
                              "identities that it has made");
   }
-  const KeyPair authority = make_authority(authority_name(), valid_for_days(days));
+  const KeyPair authority = make_authority(new_authority_name(), valid_for_days(days));
   const TrustFiles trust = trust_files(directory, true);
   write_file(authority_key(directory), private_key_text(authority.key.get()), mode_private,
              replace);

@@ -10,6 +10,8 @@
 #include <unistd.h>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_check.hpp"
+#include "deploy/keys/key_files.hpp"
 
 namespace quoin::deploy {
 
@@ -20,6 +22,9 @@ std::filesystem::path program_folder() {
 std::vector<ProcessPlan> process_plans(const Deployment& deployment,
                                        const std::function<int(const ServiceConfig&)>& observers) {
   const std::filesystem::path folder = program_folder();
+  std::vector<std::string> identities{std::string(operator_identity)};
+  for (const ServiceConfig& service : deployment.services) identities.push_back(label(service));
+  require_keys(deployment, identities);
   std::map<std::string, int> levels;
   std::vector<ProcessPlan> plans;
   std::vector<std::size_t> behind;

@@ -16,7 +16,7 @@ namespace quoin::deploy {
 
 /// How to start the services of `deployment`. `observers` tells how many readers of this process a
 /// service has to wait for, so that not even its first result is missed. Throws std::runtime_error
-/// when a program is not there.
+/// when a program is not there, DeploymentError when a key is not.
 [[nodiscard]] std::vector<ProcessPlan> process_plans(
     const Deployment& deployment, const std::function<int(const ServiceConfig&)>& observers);
 

@@ -87,7 +87,7 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment, const
 
 Participant::Participant(const ParticipantConfig& config) : impl_(std::make_unique<Impl>()) {
   disable_intraprocess_delivery();
-  if (config.security) impl_->listener = tell_refusals();
+  if (config.security) impl_->listener = watch_security(*config.security, config.identity);
   auto* factory = dds::DomainParticipantFactory::get_instance();
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
                                                    participant_qos(config), impl_->listener.get(),

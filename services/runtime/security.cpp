@@ -2,44 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/security.hpp"
 
-#include <memory>
-#include <mutex>
-#include <sstream>
+#include <chrono>
+#include <filesystem>
 
-#include <fastdds/dds/log/Log.hpp>
 #include <spdlog/spdlog.h>
 
+#include "deploy/keys/key_check.hpp"
 #include "deploy/keys/key_files.hpp"
+#include "services/runtime/refusals.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-class Refusals : public dds::LogConsumer {
- public:
-  void Consume(const dds::Log::Entry& entry) override {
-    spdlog::warn("RAW {} {}: {}", entry.context.category,
-                 entry.context.function ? entry.context.function : "", entry.message);
-  }
-};
-
-class Listener : public dds::DomainParticipantListener {
- public:
-  void on_participant_discovery(dds::DomainParticipant*,
-                                rtps::ParticipantDiscoveryInfo&& info) override {
-    spdlog::warn("DISC {} {} token {}", static_cast<int>(info.status),
-                 info.info.m_participantName.c_str(), info.info.identity_token_.is_nil());
-  }
-  void onParticipantAuthentication(dds::DomainParticipant*,
-                                   rtps::ParticipantAuthenticationInfo&& info) override {
-    std::ostringstream text;
-    text << info.guid;
-    spdlog::warn("AUTH {} {}", static_cast<int>(info.status), text.str());
-  }
-};
+constexpr auto soon = std::chrono::hours(24 * 30);
 
 }  // namespace
 
@@ -67,14 +45,17 @@ void add_security(const deploy::SecurityConfig& security, const std::string& ide
   set("crypto.plugin", "builtin.AES-GCM-GMAC");
 }
 
-std::unique_ptr<dds::DomainParticipantListener> tell_refusals() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    dds::Log::ClearConsumers();
-    dds::Log::RegisterConsumer(std::make_unique<Refusals>());
-    dds::Log::SetVerbosity(dds::Log::Kind::Warning);
-  });
-  return std::make_unique<Listener>();
+std::unique_ptr<dds::DomainParticipantListener> watch_security(
+    const deploy::SecurityConfig& security, const std::string& identity) {
+  auto listener = tell_refusals(deploy::authority_name(security.directory));
+  const auto left =
+      deploy::certificate_end(security.directory, identity) - std::chrono::system_clock::now();
+  if (left < soon) {
+    spdlog::warn("the certificate of '{}' ends in {} days; quoin keys add {} {} --force renews it",
+                 identity, std::chrono::duration_cast<std::chrono::hours>(left).count() / 24,
+                 security.directory.string(), identity);
+  }
+  return listener;
 }
 
 }  // namespace quoin::runtime

@@ -16,8 +16,8 @@ namespace quoin::runtime {
 void add_security(const deploy::SecurityConfig& security, const std::string& identity,
                   eprosima::fastdds::dds::DomainParticipantQos& qos);
 
-/// From now on what DDS Security refuses is told in the log of this process; the listener, which
-/// the participant is to have, names those who are refused.
-[[nodiscard]] std::unique_ptr<eprosima::fastdds::dds::DomainParticipantListener> tell_refusals();
+/// A listener for that participant; see tell_refusals. Also warns of a certificate that ends soon.
+[[nodiscard]] std::unique_ptr<eprosima::fastdds::dds::DomainParticipantListener> watch_security(
+    const deploy::SecurityConfig& security, const std::string& identity);
 
 }  // namespace quoin::runtime
