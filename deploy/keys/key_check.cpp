@@ -38,29 +38,30 @@ class Check {
   std::vector<std::string> run() {
     const auto& security = *deployment_.security;
     const std::string directory = security.directory.string();
-    const TrustFiles trust = trust_files(security.directory, security.encrypt);
-    const IdentityFiles files = identity_files(security.directory, identity_);
     const std::string copy_trust =
-        "copy the folder trust of the key directory to this host (quoin "
-        "keys init " +
-        directory + " makes it)";
-    const std::string add = "quoin keys add " + directory + " " + identity_;
-    const std::string copy_identity =
-        add + " makes it, on the host of the authority; copy identities/" + identity_ + " here";
+        "copy trust of the key directory to this host (quoin keys init " + directory +
+        " makes one)";
+    const std::string make = "quoin keys add " + directory + " " + identity_;
     const std::string renew =
         "quoin keys permissions " + directory + " " + deployment_.file.string() + " renews it";
+    const auto folder = identity_folder(security.directory, identity_);
+    require_folder(security.directory / "trust", copy_trust);
+    require_folder(folder, make + " makes it, on the host of the authority; copy it here");
+    if (!problems_.empty()) return problems_;
+    const TrustFiles trust = trust_files(security.directory, security.encrypt);
+    const IdentityFiles files = identity_files(security.directory, identity_);
     const std::string authority = read(trust.authority, copy_trust);
     const std::string revoked = read(trust.revoked, copy_trust);
     const std::string governance = read(trust.governance, copy_trust);
-    const std::string certificate = read(files.certificate, copy_identity);
-    const std::string private_key = read(files.private_key, copy_identity);
+    const std::string certificate = read(files.certificate, make + " --force makes it");
+    const std::string private_key = read(files.private_key, make + " makes it");
     const std::string permissions = read(files.permissions, renew);
     if (!problems_.empty()) return problems_;
     attempt(trust.authority, copy_trust, [&] {
       const OpensslCertificate issuer = parse_certificate(authority);
       attempt(trust.governance, copy_trust,
               [&] { (void)verify_document(governance, issuer.get()); });
-      attempt(files.certificate, add + " --force renews it", [&] {
+      attempt(files.certificate, make + " --force renews it", [&] {
         const OpensslCertificate own = parse_certificate(certificate);
         const std::string reason =
             objection(own.get(), issuer.get(), parse_revocation_list(revoked).get());
@@ -78,6 +79,11 @@ class Check {
  private:
   void add(const std::string& what, const std::string& way_out) {
     problems_.push_back(deployment_.file.string() + ": security: " + what + "; " + way_out);
+  }
+
+  void require_folder(const std::filesystem::path& folder, const std::string& way_out) {
+    if (!std::filesystem::is_directory(folder))
+      add("there is no folder " + folder.string(), way_out);
   }
 
   std::string read(const std::filesystem::path& file, const std::string& way_out) {

@@ -225,13 +225,11 @@ TEST(Security, TheCommandMakesKeysAndNothingStartsWithoutThem) {
   };
   const std::string keys = (deployment.directory().path() / "keys").string();
 
-  EXPECT_THAT(
-      quoin({"up", "FILE"}),
-      testing::Pair(2, HasSubstr("authority.pem: No such file or directory; copy the folder")));
+  EXPECT_THAT(quoin({"up", "FILE"}),
+              testing::Pair(2, HasSubstr("/keys/trust; copy trust of the key directory")));
   Process walls = deployment.start("walls");
   EXPECT_EQ(walls.wait(30s), 2);
-  EXPECT_THAT(walls.errors(),
-              HasSubstr("identities/walls/key.pem: No such file or directory; quoin keys add"));
+  EXPECT_THAT(walls.errors(), HasSubstr("/identities/walls; quoin keys add"));
 
   EXPECT_THAT(quoin({"keys", "add", keys, "walls"}),
               testing::Pair(1, HasSubstr("quoin keys init")));
