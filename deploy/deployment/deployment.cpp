@@ -44,6 +44,17 @@ std::vector<const ServiceConfig*> Deployment::readers_of(std::string_view name) 
   return readers;
 }
 
+std::vector<std::string> hosts_of(const Deployment& deployment) {
+  std::vector<std::string> hosts;
+  for (const ServiceConfig& service : deployment.services) {
+    if (service.host.empty()) continue;
+    if (std::find(hosts.begin(), hosts.end(), service.host) == hosts.end()) {
+      hosts.push_back(service.host);
+    }
+  }
+  return hosts;
+}
+
 std::string output_topic(const Deployment& deployment, const ServiceConfig& service) {
   const KindInfo* kind = find_kind(service.kind);
   if (kind == nullptr) throw std::invalid_argument("unknown kind '" + service.kind + "'");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -41,6 +42,11 @@ struct ServerAddress {
   friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
 };
 
+/// How long a participant is kept that is not heard of any more [s]: on the loopback interface, and
+/// on a network, where a link may fail for a while.
+inline constexpr double loopback_lease = 5.0;
+inline constexpr double network_lease = 20.0;
+
 /// The interfaces that DDS uses, and how discovery works on them.
 struct NetworkConfig {
   /// Names (eth0), IPv4 addresses or networks (10.7.0.0/24); each host uses those of them that it
@@ -49,8 +55,19 @@ struct NetworkConfig {
   Discovery discovery = Discovery::peers;
   std::vector<std::string> peers;      ///< IPv4 addresses of the hosts, with Discovery::peers
   std::vector<ServerAddress> servers;  ///< with Discovery::server
+  /// [s] Shorter cuts of a link lose nothing with the lossless preset; a process that was killed is
+  /// forgotten after this time.
+  double lease = loopback_lease;
 
   friend bool operator==(const NetworkConfig&, const NetworkConfig&) = default;
+};
+
+/// A network that no file describes, as texts; "" and empty lists say nothing.
+struct NetworkText {
+  std::vector<std::string> interfaces;
+  std::string discovery;
+  std::vector<std::string> peers;
+  std::vector<std::string> servers;  ///< ADDRESS or ADDRESS:PORT
 };
 
 /// DDS Security: every participant proves its identity and has permissions of its own.
@@ -74,6 +91,8 @@ struct ServiceConfig {
   /// Of this instance's claim to the output, when there are several of one name; the strongest that
   /// lives is heard.
   std::optional<int> strength;
+  /// With a strength: how long this instance may be silent before the next one is heard.
+  std::chrono::milliseconds lease{100};
   Position position;  ///< of the service in the file
 };
 
@@ -114,6 +133,13 @@ class DeploymentError : public std::runtime_error {
 /// The same for text already in memory; `file` is what messages name.
 [[nodiscard]] Deployment parse_deployment(const std::string& text,
                                           const std::filesystem::path& file);
+
+/// What `network:` with these entries would give. Throws DeploymentError, whose messages name no
+/// place.
+[[nodiscard]] NetworkConfig parse_network(const NetworkText& text);
+
+/// The hosts that services name, each once, in the order of the services; none when all run on one.
+[[nodiscard]] std::vector<std::string> hosts_of(const Deployment& deployment);
 
 /// Topic names: <namespace>/<service>/<type in lower case>, "" of a service that publishes nothing,
 /// and two shared by all services.

@@ -5,6 +5,7 @@
 #include <arpa/inet.h>
 #include <charconv>
 
+#include "core/methods/parameter.hpp"
 #include "core/methods/suggestion.hpp"
 
 namespace quoin::deploy {
@@ -83,6 +84,27 @@ std::vector<ServerAddress> read_servers(const Entry& entry, Problems& problems) 
   return servers;
 }
 
+/// Of which a network has one, so that times are written as elsewhere.
+struct Lease {
+  double lease = network_lease;
+
+  static constexpr auto fields() {
+    return std::make_tuple(field(&Lease::lease, "lease", "s", 0.5, 600.0,
+                                 "until a participant is forgotten that is not heard of"));
+  }
+};
+
+double read_lease(const Entry& entry, Problems& problems) {
+  const auto text = read_text(entry, problems);
+  if (!text) return network_lease;
+  try {
+    return make_parameters<Lease>({{"lease", *text}}).lease;
+  } catch (const ParameterError& error) {
+    problems.add(entry.value_at, std::string("the lease: ") + error.what());
+    return network_lease;
+  }
+}
+
 Discovery discovery_of(const std::string& name) {
   if (name == "multicast") return Discovery::multicast;
   return name == "server" ? Discovery::server : Discovery::peers;
@@ -98,6 +120,7 @@ NetworkConfig read_network(const Entry& entry, Problems& problems) {
     return network;
   }
   std::optional<std::string> discovery;
+  std::optional<double> lease;
   std::optional<Entry> peers, servers;
   for (const Entry& element : entries_of(entry.value, "the network", problems)) {
     if (element.key == "interfaces") {
@@ -110,10 +133,12 @@ NetworkConfig read_network(const Entry& entry, Problems& problems) {
     } else if (element.key == "servers") {
       servers = element;
       network.servers = read_servers(element, problems);
+    } else if (element.key == "lease") {
+      lease = read_lease(element, problems);
     } else {
-      problems.add(element.key_at,
-                   "unknown key '" + element.key + "' of the network" +
-                       suggestion(element.key, {"interfaces", "discovery", "peers", "servers"}));
+      problems.add(element.key_at, "unknown key '" + element.key + "' of the network" +
+                                       suggestion(element.key, {"interfaces", "discovery", "peers",
+                                                                "servers", "lease"}));
     }
   }
   if (network.peers.size() + network.servers.size() > most_addresses) {
@@ -124,6 +149,7 @@ NetworkConfig read_network(const Entry& entry, Problems& problems) {
     discovery = servers ? "server" : peers || loopback ? "peers" : "multicast";
   }
   network.discovery = discovery_of(*discovery);
+  network.lease = lease.value_or(loopback ? loopback_lease : network_lease);
   if (peers && *discovery != "peers") {
     problems.add(peers->key_at, "'peers' are for discovery: peers, not for " + *discovery);
   }
@@ -144,6 +170,19 @@ NetworkConfig read_network(const Entry& entry, Problems& problems) {
                  "the network names no interfaces; add interfaces: [NAME, ...], or "
                  "remove 'network' to stay on this host");
   }
+  return network;
+}
+
+NetworkConfig parse_network(const NetworkText& text) {
+  YAML::Node map(YAML::NodeType::Map);
+  if (!text.interfaces.empty()) map["interfaces"] = text.interfaces;
+  if (!text.discovery.empty()) map["discovery"] = text.discovery;
+  if (!text.peers.empty()) map["peers"] = text.peers;
+  if (!text.servers.empty()) map["servers"] = text.servers;
+  if (map.size() == 0) return {};
+  Problems problems("");
+  NetworkConfig network = read_network({"network", {}, map, {}}, problems);
+  problems.raise();
   return network;
 }
 

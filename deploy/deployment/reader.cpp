@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <fstream>
 #include <optional>
+#include <tuple>
 
+#include "core/methods/parameter.hpp"
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
@@ -21,6 +24,15 @@ constexpr std::size_t most_services = 256;
 constexpr std::size_t longest_name = 64;
 constexpr int highest_domain = 232;
 constexpr int highest_strength = 1'000'000;
+
+/// How long an instance with a strength may be silent.
+struct Lease {
+  double seconds = 0.1;  // [s]
+
+  static constexpr auto fields() {
+    return std::tuple{field(&Lease::seconds, "lease", "s", 0.02, 60.0, "silence of the dead")};
+  }
+};
 
 class Reader {
  public:
@@ -124,7 +136,7 @@ class Reader {
     }
     DraftService draft;
     draft.config.position = at;
-    std::optional<Entry> kind, method, parameters;
+    std::optional<Entry> kind, method, parameters, lease;
     bool named = false;
     std::optional<std::string> qos = qos_;
     for (const Entry& entry : entries_of(node, "a service", problems_)) {
@@ -152,11 +164,13 @@ class Reader {
         read_host(entry, draft);
       } else if (entry.key == "strength") {
         draft.config.strength = read_integer(entry, "the strength", 0, highest_strength, problems_);
+      } else if (entry.key == "lease") {
+        lease = entry;
       } else {
         problems_.add(entry.key_at,
                       "unknown key '" + entry.key + "' of a service" +
                           suggestion(entry.key, {"name", "kind", "input", "method", "parameters",
-                                                 "qos", "restart", "host", "strength"}));
+                                                 "qos", "restart", "host", "strength", "lease"}));
       }
     }
     if (!named) problems_.add(at, "a service without a name; add name: NAME");
@@ -168,6 +182,8 @@ class Reader {
     }
     if (draft.kind != nullptr) {
       draft.config.qos = qos.value_or(draft.kind->qos);
+      // A source tells that it lives by its scans alone, which may be 100 ms apart.
+      if (draft.kind->input == MessageType::none) draft.config.lease *= 5;
       const bool known = read_method(method, draft);
       if (parameters) {
         draft.config.parameters = read_parameters(
@@ -176,7 +192,24 @@ class Reader {
       }
       if (known) require_parameters(parameters ? parameters->key_at : at, draft);
     }
+    if (lease) read_lease(*lease, draft);
     drafts_.push_back(std::move(draft));
+  }
+
+  void read_lease(const Entry& entry, DraftService& draft) {
+    const auto text = read_text(entry, problems_);
+    if (!text) return;
+    if (!draft.config.strength) {
+      problems_.add(entry.key_at, "a lease without a strength; add strength: NUMBER");
+      return;
+    }
+    try {
+      const double seconds = make_parameters<Lease>({{"lease", *text}}).seconds;
+      draft.config.lease =
+          std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
+    } catch (const ParameterError& error) {
+      problems_.add(entry.value_at, std::string("the lease ") + error.what());
+    }
   }
 
   void read_host(const Entry& entry, DraftService& draft) {

@@ -21,7 +21,7 @@ using Index = std::map<std::string, std::size_t>;
 bool are_instances(const DraftService& one, const DraftService& other) {
   return one.config.strength && other.config.strength &&
          one.config.strength != other.config.strength && one.config.kind == other.config.kind &&
-         one.config.qos == other.config.qos;
+         one.config.qos == other.config.qos && one.config.lease == other.config.lease;
 }
 
 Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
@@ -37,11 +37,12 @@ Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
                      });
     if (other == drafts.begin() + static_cast<std::ptrdiff_t>(i)) continue;
     const Position at = other->name_at;
-    problems.add(drafts[i].name_at,
-                 "the name '" + name + "' is taken by the service at " + std::to_string(at.line) +
-                     ":" + std::to_string(at.column) +
-                     "; names must be unique, unless the services are of one kind and QoS and have "
-                     "different strengths");
+    problems.add(
+        drafts[i].name_at,
+        "the name '" + name + "' is taken by the service at " + std::to_string(at.line) + ":" +
+            std::to_string(at.column) +
+            "; names must be unique, unless the services are of one kind, QoS and lease and have "
+            "different strengths");
   }
   return index;
 }

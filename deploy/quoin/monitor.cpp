@@ -7,6 +7,7 @@
 
 #include "deploy/deployment/kinds.hpp"
 #include "deploy/keys/key_files.hpp"
+#include "services/runtime/heartbeat.hpp"
 #include "services/runtime/qos.hpp"
 
 namespace quoin::deploy {
@@ -15,22 +16,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-std::string state_name(msg::ServiceState state) {
-  switch (state) {
-    case msg::STATE_STARTING:
-      return "starting";
-    case msg::STATE_ACTIVE:
-      return "active";
-    case msg::STATE_FINISHED:
-      return "finished";
-    case msg::STATE_STOPPED:
-      return "stopped";
-    case msg::STATE_FAILED:
-      return "failed";
-  }
-  return "unknown";
-}
 
 std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
   const ServiceConfig* origin = &service;
@@ -42,7 +27,7 @@ std::string source_of(const Deployment& deployment, const ServiceConfig& service
 
 ServiceReport report_of(const msg::ServiceStatus& status) {
   ServiceReport report;
-  report.state = state_name(status.state());
+  report.state = runtime::state_name(status.state());
   report.detail = status.detail();
   report.received = status.received();
   report.published = status.published();
@@ -59,19 +44,27 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   return report;
 }
 
-Monitor::Monitor(const Deployment& deployment)
+Monitor::Monitor(const Deployment& deployment, const std::string& host)
     : deployment_(deployment),
       participant_(runtime::participant_config(deployment, "quoin", operator_identity)),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
   for (const ServiceConfig& service : deployment.services) {
-    services_[service.name].method = service.method;
-    if (find_kind(service.kind)->output != MessageType::corners) continue;
+    ServiceWatch& service_watch = services_[label(service)];
+    service_watch.name = service.name;
+    service_watch.method = service.method;
+    service_watch.here = service.host == host;
+    if (!service_watch.here || find_kind(service.kind)->output != MessageType::corners) continue;
+    // Its instances write to one topic.
+    if (std::any_of(corners_.begin(), corners_.end(),
+                    [&](const CornerWatch& watch) { return watch.name == service.name; })) {
+      continue;
+    }
     CornerWatch watch;
     watch.name = service.name;
     watch.source = source_of(deployment, service);
     watch.reader = std::make_unique<runtime::Reader<msg::Corners>>(
-        participant_, output_topic(deployment, service), runtime::qos_preset(service.qos));
+        participant_, output_topic(deployment, service), runtime::output_qos(service));
     wait_set_.add(*watch.reader);
     corners_.push_back(std::move(watch));
   }
@@ -119,18 +112,33 @@ void Monitor::take(const msg::ServiceStatus& status) {
   watch.ended = status.state() != msg::STATE_STARTING && status.state() != msg::STATE_ACTIVE;
 }
 
+// The instance that wrote an entry of a trace; null when there are several and it has not told its
+// incarnation yet.
+Monitor::ServiceWatch* Monitor::writer_of(const msg::StageTrace& trace) {
+  ServiceWatch* only = nullptr;
+  bool several = false;
+  for (auto& [label, watch] : services_) {
+    if (watch.name != trace.service()) continue;
+    if (watch.process_ids.contains(trace.incarnation())) return &watch;
+    several = only != nullptr;
+    only = &watch;
+  }
+  return several ? nullptr : only;
+}
+
 void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
   const bool first = watch.accounting.received() == 0;
   const std::uint64_t received = watch.accounting.received();
   watch.accounting.receive(message.header());
   if (watch.accounting.received() == received) return;  // the same scan again
+  if (!message.header().trace().empty()) watch.source_trace = message.header().trace()[0];
   if (first) watch.lost_at_start = message.header().sequence_number();
   // Heartbeats come once a second; the trace tells at once what a process had published, which is
   // all there is when it is killed.
   for (const msg::StageTrace& trace : message.header().trace()) {
-    const auto service = services_.find(trace.service());
-    if (service == services_.end()) continue;
-    service->second.incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
+    ServiceWatch* service = writer_of(trace);
+    if (service == nullptr) continue;
+    service->incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
   }
   watch.corners += message.corners().size();
   for (const msg::Corner& corner : message.corners()) {
@@ -151,7 +159,7 @@ std::string Monitor::never_active() const {
   const std::lock_guard lock(mutex_);
   std::string names;
   for (const auto& [name, watch] : services_) {
-    if (watch.was_active) continue;
+    if (watch.was_active || !watch.here) continue;
     names += (names.empty() ? "" : ", ") + name;
     const std::string detail = watch.incarnations.total().detail;
     if (!detail.empty()) names += " (" + detail + ")";
@@ -163,6 +171,7 @@ std::map<std::string, std::set<int>> Monitor::processes() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, std::set<int>> processes;
   for (const auto& [name, watch] : services_) {
+    if (!watch.here) continue;
     for (const auto& [incarnation, process] : watch.process_ids) processes[name].insert(process);
   }
   return processes;
@@ -175,7 +184,11 @@ int Monitor::newest_process(const std::string& name) const {
 }
 
 std::uint64_t Monitor::scans_published(const std::string& source) const {
-  return services_.at(source).incarnations.total().published;
+  std::uint64_t most = 0;
+  for (const auto& [label, watch] : services_) {
+    if (watch.name == source) most = std::max(most, watch.incarnations.total().published);
+  }
+  return most;
 }
 
 DeploymentFigures Monitor::figures() const {
@@ -183,15 +196,15 @@ DeploymentFigures Monitor::figures() const {
   DeploymentFigures figures;
   figures.deployment = deployment_.file.string();
   for (const ServiceConfig& service : deployment_.services) {
-    const ServiceWatch& watch = services_.at(service.name);
-    ServiceFigures entry{service.name, service.kind, watch.method, watch.incarnations.total(), 0};
+    const ServiceWatch& watch = services_.at(label(service));
+    ServiceFigures entry{label(service), service.kind, watch.method, watch.incarnations.total(), 0};
     if (service.input.empty()) {
       figures.scans_published += entry.report.published;
     } else {
       // What a killed process received after its last heartbeat shows in its results alone.
       entry.report.received = std::max(entry.report.received, entry.report.published);
     }
-    figures.services.push_back(std::move(entry));
+    if (watch.here) figures.services.push_back(std::move(entry));
   }
   for (const CornerWatch& watch : corners_) {
     CornerFigures corner;
@@ -235,7 +248,10 @@ void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
   for (CornerWatch& watch : corners_) {
     if (watch.accounting.received() > 0) {
-      watch.accounting.finish(services_.at(watch.source).incarnations.numbered_by_newest());
+      const ServiceWatch* source = writer_of(watch.source_trace);
+      // A source on another host that goes on without us: its further scans are no loss.
+      if (source == nullptr || (!source->here && !source->ended)) continue;
+      watch.accounting.finish(source->incarnations.numbered_by_newest());
     } else {
       watch.lost_at_start = scans_published(watch.source);
     }

@@ -27,26 +27,28 @@ namespace quoin::deploy {
 /// What a heartbeat says, in the terms of a report.
 [[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
-/// Listens to the heartbeats of a deployment and to what its corner services publish, in a thread
-/// of its own.
+/// Listens to the heartbeats of a deployment and to what the corner services of one host's share of
+/// it publish, in a thread of its own.
 class Monitor {
  public:
   /// Throws std::runtime_error when DDS refuses.
-  explicit Monitor(const Deployment& deployment);
+  Monitor(const Deployment& deployment, const std::string& host);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
   /// Whether the service has ever been active.
   [[nodiscard]] bool was_active(const std::string& name) const;
+  /// The share's, as below.
   [[nodiscard]] bool all_were_active() const;
-  /// "x (waiting for 2 readers), y" for those that were never active.
+  /// "x (waiting for 2 readers), y" for those of the share that were never active.
   [[nodiscard]] std::string never_active() const;
-  /// Processes that report as a service of this deployment, by service.
+  /// Processes that report as a service of the share, by service.
   [[nodiscard]] std::map<std::string, std::set<int>> processes() const;
   [[nodiscard]] int newest_process(const std::string& name) const;
 
-  /// Everything but durations and restarts, which the supervisor knows.
+  /// Of the share, but for the scans of all sources; everything but durations and restarts, which
+  /// the supervisor knows.
   [[nodiscard]] DeploymentFigures figures() const;
 
   /// After all services have ended: waits up to `timeout` for the last heartbeats of `names`, takes
@@ -55,15 +57,18 @@ class Monitor {
 
  private:
   struct ServiceWatch {
+    std::string name;  // without a strength
     Incarnations incarnations;
     std::map<std::uint64_t, int> process_ids;  // by incarnation
     std::string method;
+    bool here = true;  ///< in the share
     bool was_active = false;
     bool ended = false;
   };
   struct CornerWatch {
     std::string name;
     std::string source;
+    msg::StageTrace source_trace;  // of the last message
     std::unique_ptr<runtime::Reader<msg::Corners>> reader;
     runtime::ScanAccounting accounting;
     std::uint64_t lost_at_start = 0;
@@ -77,6 +82,7 @@ class Monitor {
   void take(const msg::ServiceStatus& status);
   void take(CornerWatch& watch, const msg::Corners& message);
   void account_for_the_end();
+  [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
   [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
 
   const Deployment& deployment_;
@@ -84,7 +90,7 @@ class Monitor {
   runtime::Reader<msg::ServiceStatus> status_reader_;
   runtime::WaitSet wait_set_;
   mutable std::mutex mutex_;
-  std::map<std::string, ServiceWatch> services_;
+  std::map<std::string, ServiceWatch> services_;  // by label
   std::vector<CornerWatch> corners_;
   msg::ServiceStatus status_;
   msg::Corners message_;

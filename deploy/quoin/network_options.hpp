@@ -14,6 +14,7 @@ namespace quoin::deploy {
 struct NetworkOptions {
   int domain = 0;
   std::string name_space = "quoin";
+  NetworkText network;
 };
 
 /// `file` is the option of the deployment file, which says all of that.

@@ -18,11 +18,6 @@ namespace {
 // Scans waiting for their other parts; a chain is never that far apart.
 constexpr std::size_t most_pending = 64;
 
-/// A reader that only looks must not slow the writer down, as a lossless one would.
-runtime::QosPreset onlooker_qos(const ServiceConfig& service) {
-  return runtime::qos_preset(service.qos == "lossless" ? "feature" : service.qos);
-}
-
 }  // namespace
 
 CornerChain corner_chain(const Deployment& deployment, const std::string& name) {
@@ -46,11 +41,11 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
       scan_(scan),
       participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
       segments_(participant_, output_topic(deployment, *chain.segmentation),
-                onlooker_qos(*chain.segmentation)),
+                runtime::onlooker_qos(*chain.segmentation)),
       lines_(participant_, output_topic(deployment, *chain.line_fitting),
-             onlooker_qos(*chain.line_fitting)),
+             runtime::onlooker_qos(*chain.line_fitting)),
       corners_(participant_, output_topic(deployment, *chain.corners),
-               onlooker_qos(*chain.corners)) {
+               runtime::onlooker_qos(*chain.corners)) {
   wait_set_.add(segments_);
   wait_set_.add(lines_);
   wait_set_.add(corners_);

@@ -13,6 +13,7 @@
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/exclusive.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/signals.hpp"
@@ -29,6 +30,7 @@ using std::chrono::milliseconds;
 
 struct UpOptions {
   std::string file;
+  std::string host;
   double duration = 0.0;  // [s]; 0: no end
   bool json = false;
   bool quiet = false;
@@ -45,23 +47,26 @@ class Run {
   explicit Run(const UpOptions& options)
       : options_(options),
         deployment_(load_deployment(options.file)),
+        host_(host_to_run(deployment_, options.host)),
         exclusive_(deployment_),
-        plans_(process_plans(deployment_,
+        plans_(process_plans(deployment_, host_,
                              [](const ServiceConfig& service) {
                                return find_kind(service.kind)->output == MessageType::corners ? 1
                                                                                               : 0;
                              })),
-        monitor_(deployment_),
+        monitor_(deployment_, host_),
         display_(display_mode(options)),
-        supervisor_(
-            plans_,
-            {.output = [this](const std::string& name,
-                              const std::string& line) { display_.log(name, line); },
-             .event = [this](
-                          const std::string& name,
-                          const std::string& text) { display_.log("quoin", name + ": " + text); },
-             .was_active = [this](const std::string& name) { return monitor_.was_active(name); }}) {
-  }
+        supervisor_(plans_,
+                    {.output = [this](const std::string& name,
+                                      const std::string& line) { display_.log(name, line); },
+                     .event =
+                         [this](const std::string& name, const std::string& text) {
+                           display_.log("quoin", name + ": " + text);
+                         },
+                     .was_active =
+                         [this](const std::string& name) {
+                           return name == discovery_process || monitor_.was_active(name);
+                         }}) {}
 
   int run() {
     begun_ = Clock::now();
@@ -175,7 +180,8 @@ class Run {
   [[nodiscard]] std::vector<std::string> orderly_ended() const {
     std::vector<std::string> names;
     for (const ProcessPlan& plan : plans_) {
-      if (supervisor_.figures(plan.name).phase == ProcessPhase::finished)
+      if (plan.name != discovery_process &&
+          supervisor_.figures(plan.name).phase == ProcessPhase::finished)
         names.push_back(plan.name);
     }
     return names;
@@ -183,6 +189,7 @@ class Run {
 
   UpOptions options_;
   Deployment deployment_;
+  std::string host_;
   Exclusive exclusive_;
   std::vector<ProcessPlan> plans_;
   Signals signals_;  // before the threads of the monitor
@@ -205,6 +212,8 @@ Command add_up(CLI::App& app) {
       app.add_subcommand("up", "Start a deployment and watch over it until it ends or Ctrl-C");
   const auto options = std::make_shared<UpOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option("--host", options->host,
+                   "Start the share of this host; else of the one called like this machine");
   line->add_option("--duration", options->duration,
                    "Stop after this time [s], counted from when all are active")
       ->check(more_than_zero());

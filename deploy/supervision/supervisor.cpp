@@ -23,6 +23,7 @@ std::string seconds_text(milliseconds time) {
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
     : callbacks_(std::move(callbacks)) {
   for (ProcessPlan& plan : plans) {
+    has_source_ = has_source_ || plan.source;
     Child child;
     child.plan = std::move(plan);
     children_.push_back(std::move(child));
@@ -119,7 +120,7 @@ void Supervisor::advance() {
     stop_next_level(now);
     return;
   }
-  bool source_left = false;
+  bool source_left = !has_source_;  // then somebody else decides when it is over
   for (Child& child : children_) {
     if (child.figures.phase == ProcessPhase::pausing && now >= child.restart_at) {
       ++child.figures.restarts;

@@ -46,8 +46,9 @@ struct ProcessFigures {
 /// Starts processes, starts those again that die, and stops them level by level so that nothing in
 /// flight between them is lost. Single-threaded: everything happens inside `poll`.
 ///
-/// Ends when all sources have ended (what they published is drained by stopping the levels behind
-/// them), when stopped, or when a process rejects its configuration before it was first active.
+/// Ends when all sources, if it had any, have ended (what they published is drained by stopping the
+/// levels behind them), when stopped, or when a process rejects its configuration before it was
+/// first active.
 class Supervisor {
  public:
   struct Callbacks {
@@ -107,6 +108,7 @@ class Supervisor {
   Callbacks callbacks_;
   std::vector<pollfd> descriptors_;
   std::set<int> started_;
+  bool has_source_ = false;
   bool stopping_ = false;
   int level_ = -1;  ///< being stopped
   Clock::time_point level_deadline_;

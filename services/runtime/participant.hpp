@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "deploy/deployment/deployment.hpp"
 
@@ -15,6 +17,8 @@ struct ParticipantConfig {
   int domain = 0;
   std::string name;  ///< shown by DDS tools
   deploy::NetworkConfig network = {};
+  /// It is this one of the network's discovery servers.
+  std::optional<std::size_t> server = std::nullopt;
   std::optional<deploy::SecurityConfig> security = {};
   std::string identity = {};  ///< whose keys it has, with security
 };
@@ -26,14 +30,18 @@ struct ParticipantConfig {
                                                    const std::string& name,
                                                    std::string_view identity = "");
 
-/// A DDS participant that speaks UDP on 127.0.0.1 alone: it opens no other interface, sends no
-/// multicast and leaves no shared-memory file. Throws std::runtime_error when it cannot be created.
+/// A DDS participant that speaks UDP on the interfaces of its network alone (127.0.0.1 when that
+/// names none), sends multicast only for Discovery::multicast, and leaves no shared-memory file.
+/// Throws std::runtime_error when it cannot be created.
 class Participant {
  public:
   explicit Participant(const ParticipantConfig& config);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
+
+  /// Topics that other participants are known to write to.
+  [[nodiscard]] std::vector<std::string> written_topics() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

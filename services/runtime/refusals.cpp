@@ -128,12 +128,27 @@ class Consumer : public dds::LogConsumer {
   }
 };
 
-class Listener : public dds::DomainParticipantListener {
+class Listener : public KnownEndpoints {
  public:
-  explicit Listener(std::string authority) : authority_(std::move(authority)) {}
+  Listener(const std::string& own_name, std::string authority)
+      : KnownEndpoints(own_name), authority_(std::move(authority)) {}
 
-  void on_participant_discovery(dds::DomainParticipant*,
+  void on_participant_discovery(dds::DomainParticipant* participant,
                                 rtps::ParticipantDiscoveryInfo&& info) override {
+    tell_of(info);
+    KnownEndpoints::on_participant_discovery(participant, std::move(info));
+  }
+
+  void onParticipantAuthentication(dds::DomainParticipant*,
+                                   rtps::ParticipantAuthenticationInfo&& info) override {
+    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
+    Refusals& refusals = Refusals::instance();
+    refusals.tell("refused " + refusals.participant(text_of(info.guid.guidPrefix)) +
+                  ": its identity is missing, foreign, expired or revoked");
+  }
+
+ private:
+  void tell_of(const rtps::ParticipantDiscoveryInfo& info) const {
     using Info = rtps::ParticipantDiscoveryInfo;
     Refusals& refusals = Refusals::instance();
     const std::string prefix = text_of(info.info.m_guid.guidPrefix);
@@ -153,28 +168,20 @@ class Listener : public dds::DomainParticipantListener {
     }
   }
 
-  void onParticipantAuthentication(dds::DomainParticipant*,
-                                   rtps::ParticipantAuthenticationInfo&& info) override {
-    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
-    Refusals& refusals = Refusals::instance();
-    refusals.tell("refused " + refusals.participant(text_of(info.guid.guidPrefix)) +
-                  ": its identity is missing, foreign, expired or revoked");
-  }
-
- private:
   std::string authority_;
 };
 
 }  // namespace
 
-std::unique_ptr<dds::DomainParticipantListener> tell_refusals(const std::string& authority) {
+std::unique_ptr<KnownEndpoints> tell_refusals(const std::string& own_name,
+                                              const std::string& authority) {
   static std::once_flag once;
   std::call_once(once, [] {
     (void)Refusals::instance();  // made before, and so gone after, what calls it
     dds::Log::ClearConsumers();
     dds::Log::RegisterConsumer(std::make_unique<Consumer>());
   });
-  return std::make_unique<Listener>(authority);
+  return std::make_unique<Listener>(own_name, authority);
 }
 
 }  // namespace quoin::runtime

@@ -5,14 +5,14 @@
 #include <memory>
 #include <string>
 
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include "services/runtime/discovery.hpp"
 
 namespace quoin::runtime {
 
 /// From now on what DDS Security refuses is told in this process's log, a line for each participant
-/// and topic, once a minute at most. The listener is for the participant; it knows the others'
-/// names, and tells of those whose identity is not signed by `authority` (its common name).
-[[nodiscard]] std::unique_ptr<eprosima::fastdds::dds::DomainParticipantListener> tell_refusals(
-    const std::string& authority);
+/// and topic, once a minute at most. What is returned listens for the participant called
+/// `own_name`, and tells of those whose identity is not signed by `authority` (its common name).
+[[nodiscard]] std::unique_ptr<KnownEndpoints> tell_refusals(const std::string& own_name,
+                                                            const std::string& authority);
 
 }  // namespace quoin::runtime

@@ -45,9 +45,10 @@ void add_security(const deploy::SecurityConfig& security, const std::string& ide
   set("crypto.plugin", "builtin.AES-GCM-GMAC");
 }
 
-std::unique_ptr<dds::DomainParticipantListener> watch_security(
-    const deploy::SecurityConfig& security, const std::string& identity) {
-  auto listener = tell_refusals(deploy::authority_name(security.directory));
+std::unique_ptr<KnownEndpoints> watch_security(const deploy::SecurityConfig& security,
+                                               const std::string& identity,
+                                               const std::string& name) {
+  auto listener = tell_refusals(name, deploy::authority_name(security.directory));
   const auto left =
       deploy::certificate_end(security.directory, identity) - std::chrono::system_clock::now();
   if (left < soon) {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
 #include "deploy/deployment/deployment.hpp"
+#include "services/runtime/discovery.hpp"
 
 namespace quoin::runtime {
 
@@ -16,8 +16,10 @@ namespace quoin::runtime {
 void add_security(const deploy::SecurityConfig& security, const std::string& identity,
                   eprosima::fastdds::dds::DomainParticipantQos& qos);
 
-/// A listener for that participant; see tell_refusals. Also warns of a certificate that ends soon.
-[[nodiscard]] std::unique_ptr<eprosima::fastdds::dds::DomainParticipantListener> watch_security(
-    const deploy::SecurityConfig& security, const std::string& identity);
+/// What that participant, which is called `name`, hears of others; see tell_refusals. Also warns of
+/// a certificate that ends soon.
+[[nodiscard]] std::unique_ptr<KnownEndpoints> watch_security(const deploy::SecurityConfig& security,
+                                                             const std::string& identity,
+                                                             const std::string& name);
 
 }  // namespace quoin::runtime

@@ -21,16 +21,19 @@ namespace quoin::runtime {
 
 namespace {
 
+constexpr std::chrono::seconds longest_wait{1};
+
 /// Reads, processes, publishes and accounts for one service, in the thread that calls run().
 template <class In, class Out>
 class Stage {
  public:
   Stage(Service& service, Process<In, Out> process, const ProcessFactory<In, Out>& make)
       : service_(service),
+        pulse_(service.heartbeat.pulse()),
         process_(std::move(process)),
         lossless_(qos_preset(service.config.qos) == QosPreset::lossless),
         writer_(service.participant, deploy::output_topic(service.deployment, service.config),
-                qos_preset(service.config.qos)),
+                output_qos(service.config)),
         exchange_(service, make) {}
 
   int run() {
@@ -39,9 +42,10 @@ class Stage {
     if (service_.wait_for_readers(writer_)) {
       const deploy::ServiceConfig& input = service_.deployment.service(service_.config.input);
       Reader<In> reader(service_.participant, deploy::output_topic(service_.deployment, input),
-                        qos_preset(input.qos));
+                        output_qos(input));
       read(reader);
     }
+    service_.heartbeat.stopping();
     if (!writer_.wait_for_acknowledgments(std::chrono::seconds(2))) {
       spdlog::warn("not all readers have acknowledged the last results");
     }
@@ -65,7 +69,7 @@ class Stage {
     service_.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
     bool stopping = false;
     while (!stopping) {
-      wait_set.wait(std::chrono::seconds(1));
+      wait_for_input(wait_set);
       // Asked before the last round of taking: what was received until then is still processed.
       stopping = service_.stop.requested();
       while (reader.take(in_)) handle();
@@ -74,17 +78,28 @@ class Stage {
     service_.heartbeat.set_endpoint_report(nullptr);
   }
 
+  /// An instance that stands by, or is stood by for, tells that it lives; from this loop, so that
+  /// one whose method hangs is replaced.
+  void wait_for_input(WaitSet& wait_set) {
+    pulse_.wait_until(Pulse::Clock::now() + longest_wait);
+    if (!service_.config.strength) {
+      wait_set.wait(longest_wait);
+    } else if (!wait_set.wait(service_.config.lease / 4)) {
+      writer_.assert_liveliness();
+    }
+  }
+
   void handle() {
+    pulse_.beat();
     const std::int64_t received = now_ns();
     std::uint64_t link_lost = 0;
     std::uint64_t upstream_lost = 0;
-    const std::uint64_t duplicates = accounting_.duplicates();
     for (const Loss& loss : accounting_.receive(in_.header())) {
       (loss.stage == "link" ? link_lost : upstream_lost) += loss.count;
       spdlog::warn("{} scans of {}..{} lost by {}", loss.count, loss.first_sequence,
                    loss.last_sequence, loss.stage);
     }
-    if (accounting_.duplicates() != duplicates) return;
+    if (accounting_.last_was_duplicate()) return;
     service_.heartbeat.count_received(upstream_lost, link_lost);
     exchange_.apply(in_.header().sequence_number(), process_);
     publish(received);
@@ -106,7 +121,7 @@ class Stage {
     trace.incarnation(service_.heartbeat.incarnation());
     trace.index(next_index_);
     trace.received(received);
-    if (!deliver(writer_, out_, trace, lossless_, service_.stop)) {
+    if (!deliver(writer_, out_, trace, lossless_, service_.stop, pulse_)) {
       service_.heartbeat.count_loss(LossCause::publishing);
       return;
     }
@@ -117,6 +132,7 @@ class Stage {
   }
 
   Service& service_;
+  Pulse& pulse_;
   Process<In, Out> process_;
   bool lossless_;
   Writer<Out> writer_;

@@ -88,6 +88,43 @@ TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
   EXPECT_EQ(discovery("network: {servers: 127.0.0.1}\n"), Discovery::server);
 }
 
+TEST(Reader, KeepsParticipantsLongerOnANetworkUnlessTold) {
+  EXPECT_EQ(parse_network({}).lease, loopback_lease);
+  EXPECT_EQ(parse_network({{"eth0"}, "", {}, {}}).lease, network_lease);
+  const Deployment told = parse_deployment(
+      "version: 1\nnetwork: {interfaces: eth0, lease: 500 ms}\n"
+      "services:\n  - {name: front, kind: simulated}\n",
+      "robot.yaml");
+  EXPECT_EQ(told.network.lease, 0.5);
+}
+
+TEST(Reader, ReadsANetworkThatNoFileDescribes) {
+  const NetworkConfig network = parse_network({{"eth0", "10.7.0.0/24"}, "", {}, {"10.7.0.2:11899"}});
+  EXPECT_THAT(network.interfaces, ElementsAre("eth0", "10.7.0.0/24"));
+  EXPECT_EQ(network.discovery, Discovery::server);
+  EXPECT_THAT(network.servers, ElementsAre(ServerAddress{"10.7.0.2", 11899}));
+  EXPECT_EQ(parse_network({}), NetworkConfig{});
+  try {
+    (void)parse_network({{"eth0"}, "server", {}, {}});
+    ADD_FAILURE();
+  } catch (const DeploymentError& error) {
+    EXPECT_THAT(error.messages(), ElementsAre(testing::StartsWith("discovery: server needs")));
+  }
+}
+
+TEST(Reader, TellsTheHostsThatServicesName) {
+  EXPECT_THAT(hosts_of(parse_deployment(chain, "robot.yaml")), testing::IsEmpty());
+  EXPECT_THAT(hosts_of(parse_deployment(R"(
+version: 1
+services:
+  - {name: front, kind: simulated, host: lidar}
+  - {name: walls, kind: segmentation, input: front, host: compute}
+  - {name: rear, kind: simulated, host: lidar}
+)",
+                                        "robot.yaml")),
+              ElementsAre("lidar", "compute"));
+}
+
 TEST(Reader, PutsInputsFirstAndElseKeepsTheOrder) {
   EXPECT_THAT(names_of(parse_deployment(chain, "robot.yaml")),
               ElementsAre("front", "walls", "lines", "corners", "rear"));
