@@ -8,10 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "deploy/keys/key_directory.hpp"
-#include "deploy/keys/key_files.hpp"
 #include "services/runtime/writer.hpp"
-#include "tests/integration/harness/deployment.hpp"
+#include "tests/integration/harness/keys.hpp"
 
 namespace quoin {
 namespace {
@@ -34,24 +32,13 @@ const std::string corners_topic = "/corners/corners";
 /// A deployment behind closed doors, with all of its keys.
 class ClosedDeployment : public TestDeployment {
  public:
-  explicit ClosedDeployment(bool encrypt = true)
-      : TestDeployment(chain, std::string("security: {keys: keys, encrypt: ") +
-                                  (encrypt ? "true" : "false") + "}\n") {
-    deploy::make_key_directory(keys(), 1, false);
-    for (const std::string& identity : deploy::identities_of(deployment())) {
-      add(keys(), identity, {deploy::rule_of(deployment(), identity)});
-    }
+  explicit ClosedDeployment(const std::string& encrypt = "true")
+      : TestDeployment(chain, "security: {keys: keys, encrypt: " + encrypt + "}\n") {
+    tests::make_keys(*this);
   }
 
   [[nodiscard]] std::filesystem::path keys() const { return directory().path() / "keys"; }
-
-  void add(const std::filesystem::path& folder, const std::string& identity,
-           const std::vector<deploy::TopicRule>& rules,
-           deploy::Validity validity = deploy::valid_for_days(1)) const {
-    const deploy::KeyPair authority = deploy::load_authority(folder);
-    deploy::add_identity(folder, authority, identity, validity, false);
-    deploy::write_permissions(folder, authority, identity, deploy::valid_for_days(1), rules);
-  }
+  [[nodiscard]] std::string name_space() const { return deployment().name_space; }
 
   /// Takes part with the keys of any folder, or with none; nothing is checked before.
   [[nodiscard]] runtime::ParticipantConfig intruder(
@@ -61,8 +48,6 @@ class ClosedDeployment : public TestDeployment {
     config.identity = name;
     return config;
   }
-
-  [[nodiscard]] std::string name_space() const { return deployment().name_space; }
 };
 
 /// Writes scans and requests, and reads corners, as far as it gets.
@@ -117,7 +102,7 @@ std::unique_ptr<Intruder> expired_intruder(const ClosedDeployment& deployment,
     const auto now = std::chrono::system_clock::now();
     const auto end = now + span;
     const std::string name = "expired_" + std::to_string(span.count());
-    deployment.add(deployment.keys(), name, {rule}, {now - 24h, end});
+    tests::add_keys(deployment.keys(), name, {rule}, {now - 24h, end});
     try {
       auto intruder = std::make_unique<Intruder>(deployment, name, deployment.keys());
       EXPECT_TRUE(
@@ -136,8 +121,8 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   const deploy::TopicRule everything{domain, {name_space + "/*"}, {name_space + "/*"}};
   const auto other_keys = deployment.directory().path() / "other";
   deploy::make_key_directory(other_keys, 1, false);
-  deployment.add(other_keys, "other_authority", {everything});
-  deployment.add(deployment.keys(), "revoked", {everything});
+  tests::add_keys(other_keys, "other_authority", {everything});
+  tests::add_keys(deployment.keys(), "revoked", {everything});
   // Fast DDS looks up its own permissions without regard to the domain, but those of others with:
   // with rules for another domain this one passes its own checks and meets those of the services.
   deployment.add(
@@ -199,7 +184,7 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
 }
 
 TEST(Security, TheOperatorChangesAndTheObserverLooks) {
-  const ClosedDeployment deployment(false);  // signed only
+  const ClosedDeployment deployment("false");  // signed only
   std::vector<Process> processes;
   for (const std::string service : {"front", "walls"})
     processes.push_back(deployment.start(service));
