@@ -44,8 +44,11 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment, const
                                      std::string_view identity) {
   const std::string keys = identity.empty() ? name : std::string(identity);
   deploy::require_keys(deployment, {keys});
-  return {deployment.domain, deployment.name_space + "/" + name, deployment.network,
-          deployment.security, keys};
+  return {.domain = deployment.domain,
+          .name = deployment.name_space + "/" + name,
+          .network = deployment.network,
+          .security = deployment.security,
+          .identity = keys};
 }
 
 Participant::Participant(const ParticipantConfig& config)
