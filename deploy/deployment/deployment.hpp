@@ -138,6 +138,11 @@ class DeploymentError : public std::runtime_error {
 /// place.
 [[nodiscard]] NetworkConfig parse_network(const NetworkText& text);
 
+/// From the death of a discovery server to the next one at its address: when all have forgotten the
+/// dead one. A new server too soon would be taken for it, and not be told of those that it should
+/// know.
+[[nodiscard]] std::chrono::milliseconds discovery_pause(const NetworkConfig& network);
+
 /// The hosts that services name, each once, in the order of the services; none when all run on one.
 [[nodiscard]] std::vector<std::string> hosts_of(const Deployment& deployment);
 

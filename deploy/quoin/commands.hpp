@@ -40,6 +40,7 @@ struct Command {
 [[nodiscard]] Command add_set(CLI::App& app);
 [[nodiscard]] Command add_discovery(CLI::App& app);
 [[nodiscard]] Command add_doctor(CLI::App& app);
+[[nodiscard]] Command add_keys(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

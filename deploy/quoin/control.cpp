@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/network_options.hpp"
 #include "services/runtime/participant.hpp"
@@ -40,7 +41,7 @@ class Requester {
   Requester(const Deployment& deployment, std::string service)
       : service_(std::move(service)),
         name_("quoin_" + std::to_string(::getpid())),
-        participant_(runtime::participant_config(deployment, name_)),
+        participant_(runtime::participant_config(deployment, name_, operator_identity)),
         writer_(participant_, control_request_topic(deployment.name_space),
                 runtime::QosPreset::control),
         reader_(participant_, control_reply_topic(deployment.name_space),

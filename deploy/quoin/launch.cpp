@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_check.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "services/runtime/interfaces.hpp"
 
 namespace quoin::deploy {
@@ -37,6 +39,7 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment) {
   plan.program = program_folder() / "quoin";
   plan.arguments = {"discovery", std::filesystem::absolute(deployment.file).string()};
   plan.level = std::numeric_limits<int>::max();  // others are found until the end
+  plan.least_pause = discovery_pause(network);
   return plan;
 }
 
@@ -45,6 +48,11 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment) {
 std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::string& host,
                                        const std::function<int(const ServiceConfig&)>& observers) {
   const std::filesystem::path folder = program_folder();
+  std::vector<std::string> identities{std::string(operator_identity)};
+  for (const ServiceConfig& service : deployment.services) {
+    if (service.host == host) identities.push_back(label(service));
+  }
+  require_keys(deployment, identities);
   std::map<std::string, int> levels;
   std::vector<ProcessPlan> plans;
   std::vector<std::size_t> behind;

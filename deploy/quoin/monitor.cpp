@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "services/runtime/heartbeat.hpp"
 #include "services/runtime/qos.hpp"
 
@@ -45,7 +46,7 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
 
 Monitor::Monitor(const Deployment& deployment, const std::string& host)
     : deployment_(deployment),
-      participant_(runtime::participant_config(deployment, "quoin")),
+      participant_(runtime::participant_config(deployment, "quoin", operator_identity)),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
   for (const ServiceConfig& service : deployment.services) {

@@ -23,7 +23,6 @@ std::string seconds_text(milliseconds time) {
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
     : callbacks_(std::move(callbacks)) {
   for (ProcessPlan& plan : plans) {
-    has_source_ = has_source_ || plan.source;
     Child child;
     child.plan = std::move(plan);
     children_.push_back(std::move(child));
@@ -104,7 +103,7 @@ void Supervisor::die(Child& child, const ProcessEnd& end) {
     callbacks_.event(child.plan.name, text);
     fail(exit_failure);
   } else if (child.plan.restart) {
-    const milliseconds pause = child.backoff.next(lifetime);
+    const milliseconds pause = std::max(child.plan.least_pause, child.backoff.next(lifetime));
     child.restart_at = Clock::now() + pause;
     child.figures.phase = ProcessPhase::pausing;
     callbacks_.event(child.plan.name, text + "; starting again in " + seconds_text(pause));
@@ -120,7 +119,8 @@ void Supervisor::advance() {
     stop_next_level(now);
     return;
   }
-  bool source_left = !has_source_;  // then somebody else decides when it is over
+  bool has_source = false;  // else somebody on another host decides when it is over
+  bool source_left = false;
   for (Child& child : children_) {
     if (child.figures.phase == ProcessPhase::pausing && now >= child.restart_at) {
       ++child.figures.restarts;
@@ -131,11 +131,12 @@ void Supervisor::advance() {
         callbacks_.event(child.plan.name, std::string("cannot be started: ") + error.what());
       }
     }
+    has_source = has_source || child.plan.source;
     source_left =
         source_left || (child.plan.source && (child.figures.phase == ProcessPhase::running ||
                                               child.figures.phase == ProcessPhase::pausing));
   }
-  if (!source_left) request_stop();
+  if (has_source && !source_left) request_stop();
 }
 
 void Supervisor::request_stop() {
