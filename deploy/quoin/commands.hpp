@@ -41,6 +41,7 @@ inline void add_network_options(CLI::App& line, NetworkOptions& options, CLI::Op
 }
 
 [[nodiscard]] Command add_up(CLI::App& app);
+[[nodiscard]] Command add_apply(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);
 [[nodiscard]] Command add_status(CLI::App& app);

@@ -18,7 +18,8 @@ std::filesystem::path program_folder() {
 }
 
 std::vector<ProcessPlan> process_plans(const Deployment& deployment,
-                                       const std::function<int(const ServiceConfig&)>& observers) {
+                                       const std::function<int(const ServiceConfig&)>& observers,
+                                       const std::filesystem::path& copy) {
   const std::filesystem::path folder = program_folder();
   std::map<std::string, int> levels;
   std::vector<ProcessPlan> plans;
@@ -32,8 +33,13 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment,
       throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
                                service.name + "' of kind " + service.kind + " needs it");
     }
-    plan.arguments = {"--deployment", std::filesystem::absolute(deployment.file).string(),
-                      "--service", service.name};
+    const std::string file = std::filesystem::absolute(deployment.file).string();
+    plan.arguments = {"--service", service.name, "--deployment"};
+    if (copy.empty()) {
+      plan.arguments.push_back(file);
+    } else {
+      plan.arguments.insert(plan.arguments.end(), {copy.string(), "--deployment-name", file});
+    }
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }

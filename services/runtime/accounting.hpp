@@ -24,13 +24,16 @@ struct Loss {
 /// (StageTrace.index), so the difference of two headers says how many results each stage made of
 /// the scans in between: the first stage that made fewer than its predecessor lost the others.
 ///
-/// Exact as long as the stages live. When one is restarted, scans between its last result that
-/// arrived and its first new one are put to its account.
+/// Exact as long as the stages live. When one is restarted, or another took its place, scans
+/// missing between the last result of the one and the first of the other are put to its account.
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
-  /// the first message are not lost: nobody was listening.
+  /// the first message of a sensor are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
+
+  /// From here to the next message nobody listens: nothing in between is lost.
+  void interrupt() { previous_.reset(); }
 
   /// Losses behind the last message, when the source is known to have numbered `scans` scans.
   std::vector<Loss> finish(std::uint64_t scans);
@@ -53,11 +56,13 @@ class ScanAccounting {
     std::uint64_t index = 0;
   };
   struct Previous {
+    std::string sensor;
     std::uint64_t sequence_number = 0;
     std::vector<StagePosition> stages;
   };
   struct Made;
 
+  [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
   [[nodiscard]] bool follows(const msg::Header& header) const;
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;

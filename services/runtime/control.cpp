@@ -25,18 +25,36 @@ ControlServer::~ControlServer() {
   thread_.join();
 }
 
+// Two processes have the same name while one takes over from the other.
+bool ControlServer::addressed(const msg::ControlRequest& request) const {
+  if (request.service() != service_.config.name) return false;
+  return request.incarnation() == 0 ? !service_.succession.held()
+                                    : request.incarnation() == service_.heartbeat.incarnation();
+}
+
+void ControlServer::answer(const msg::ControlRequest& request, msg::ControlReply& reply) {
+  if (service_.succession.handle(request, reply)) {
+    reply.accepted(true);
+  } else if (request.action() == msg::ControlAction::CONTROL_STOP) {
+    service_.stop.request();
+    reply.accepted(true);
+  } else {
+    handler_(request, reply);
+  }
+}
+
 void ControlServer::run() {
   msg::ControlRequest request;
   while (!ending_) {
     wait_set_.wait(std::chrono::seconds(1));
     while (!ending_ && reader_.take(request)) {
-      if (request.service() != service_.config.name) continue;
+      if (!addressed(request)) continue;
       msg::ControlReply reply;
       reply.service(request.service());
       reply.requester(request.requester());
       reply.request(request.request());
       try {
-        handler_(request, reply);
+        answer(request, reply);
       } catch (const std::exception& error) {
         reply.accepted(false);
         reply.detail(error.what());
@@ -47,6 +65,8 @@ void ControlServer::run() {
       writer_.write(reply);
     }
   }
+  // The answer to a request that ended the process must not go with it.
+  writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
 }
 
 }  // namespace quoin::runtime

@@ -16,7 +16,8 @@ namespace quoin::runtime {
 /// own: what takes long (building a method) happens off the data path.
 class ControlServer {
  public:
-  /// Fills accepted, detail, method, parameters and first_sequence_number of the reply.
+  /// Answers what is not common to all services: fills accepted, detail, method, parameters and
+  /// first_sequence_number of the reply, or throws.
   using Handler = std::function<void(const msg::ControlRequest&, msg::ControlReply&)>;
 
   ControlServer(Service& service, Handler handler);
@@ -26,6 +27,8 @@ class ControlServer {
 
  private:
   void run();
+  [[nodiscard]] bool addressed(const msg::ControlRequest& request) const;
+  void answer(const msg::ControlRequest& request, msg::ControlReply& reply);
 
   Service& service_;
   Handler handler_;

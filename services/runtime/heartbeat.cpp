@@ -76,6 +76,11 @@ void Heartbeat::set_method(const std::string& method) {
   status_.method(method);
 }
 
+void Heartbeat::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
+}
+
 void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
   const std::lock_guard lock(mutex_);
   for (msg::Diagnostic& diagnostic : status_.diagnostics()) {
