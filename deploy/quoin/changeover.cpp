@@ -45,6 +45,15 @@ void set_method(const ServiceConfig& config, msg::ControlRequest& request) {
   }
 }
 
+/// A line of a service's log without time, name and level.
+std::string message_of(const std::string& line, const std::string& service) {
+  const std::string name = "[" + service + "] ";
+  const std::size_t at = line.find(name);
+  if (at == std::string::npos) return line;
+  const std::size_t level = line.find(' ', at + name.size());
+  return level == std::string::npos ? line : line.substr(level + 1);
+}
+
 std::string in_seconds(milliseconds time) {
   return std::to_string(time.count() / 1000) + "." + std::to_string(time.count() % 1000 / 100) +
          " s";
@@ -146,7 +155,7 @@ void Changeover::wait_until_ready() {
       const std::string& name = newcomer.config->name;
       if (!waiting.contains(name)) continue;
       if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
-        const std::string line = world_.last_line(name);
+        const std::string line = message_of(world_.last_line(name), name);
         throw std::runtime_error("the new process of service '" + name + "' ended with " +
                                  describe(*end) + (line.empty() ? "" : ": " + line));
       }

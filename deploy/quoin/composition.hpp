@@ -22,7 +22,7 @@ namespace quoin::deploy {
 /// What to change the composition to, and how.
 struct ApplyRequest {
   std::filesystem::path file;
-  std::optional<std::uint64_t> checksum;  ///< of the text that the requester means
+  std::optional<std::uint64_t> checksum = std::nullopt;  ///< of the text that the requester means
   bool dry_run = false;
   std::chrono::milliseconds patience{10'000};  ///< for new processes to be ready
 };

@@ -59,9 +59,11 @@ void ControlServer::run() {
         reply.accepted(false);
         reply.detail(error.what());
       }
-      spdlog::info("control request {} of '{}' {}{}{}", request.request(), request.requester(),
-                   reply.accepted() ? "done" : "refused", reply.detail().empty() ? "" : ": ",
-                   reply.detail());
+      if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
+        spdlog::info("control request {} of '{}' {}{}{}", request.request(), request.requester(),
+                     reply.accepted() ? "done" : "refused", reply.detail().empty() ? "" : ": ",
+                     reply.detail());
+      }
       writer_.write(reply);
     }
   }
