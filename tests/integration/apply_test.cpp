@@ -177,7 +177,7 @@ TEST_F(Apply, ReplacesASourceAndTheStagesBehindIt) {
       apply(deployment_->write(
                 "faster.yaml",
                 all_of({"  - {name: front, kind: simulated, parameters: {rate_hz: 80}}\n",
-                        "  - {name: walls, kind: segmentation, input: front, qos: lossless}\n",
+                        "  - {name: walls, kind: segmentation, input: front, qos: feature}\n",
                         wctls, corners})),
             0);
   for (const char* service : {"front", "walls", "wctls"}) {
