@@ -13,10 +13,12 @@ namespace quoin::deploy {
 
 namespace {
 
-const ServiceConfig* find(const Deployment& deployment, std::string_view name) {
-  const auto found =
-      std::find_if(deployment.services.begin(), deployment.services.end(),
-                   [&](const ServiceConfig& service) { return service.name == name; });
+/// What of the service runs on `host`; null when nothing does.
+const ServiceConfig* find(const Deployment& deployment, std::string_view name,
+                          const std::string& host) {
+  const auto found = std::find_if(
+      deployment.services.begin(), deployment.services.end(),
+      [&](const ServiceConfig& service) { return label(service) == name && service.host == host; });
   return found == deployment.services.end() ? nullptr : &*found;
 }
 
@@ -100,19 +102,28 @@ std::string reason_to_swap(const ServiceConfig& now, const ServiceConfig& then) 
   return arrow("method", now.method, then.method) + (changed.empty() ? "" : ", " + changed);
 }
 
+/// Whether readers of the output would no longer match its writers.
+bool claim_differs(const Deployment& running, const ServiceConfig& then) {
+  return std::any_of(
+      running.services.begin(), running.services.end(), [&](const ServiceConfig& now) {
+        return now.name == then.name && (now.strength.has_value() != then.strength.has_value() ||
+                                         (now.strength && now.lease != then.lease));
+      });
+}
+
 Change change_of(const Deployment& running, const Deployment& wanted, const ServiceConfig& then) {
-  const ServiceConfig* now = find(running, then.name);
+  const ServiceConfig* now = find(running, label(then), then.host);
   if (now == nullptr) {
     std::string detail = then.kind;
     if (!then.method.empty()) detail += "/" + then.method;
     if (!then.input.empty()) detail += " reads " + then.input;
-    return {ChangeAction::start, then.name, detail};
+    return {ChangeAction::start, label(then), detail};
   }
   if (std::string reason = reason_to_replace(running, *now, wanted, then); !reason.empty()) {
     // The new process has the new method from its start.
     const std::string swapped = now->kind == then.kind ? reason_to_swap(*now, then) : "";
     if (!swapped.empty()) reason += ", " + swapped;
-    return {ChangeAction::replace, then.name, reason,
+    return {ChangeAction::replace, label(then), reason,
             source_of(running, *now) == source_of(wanted, then)};
   }
   const std::string policy =
@@ -120,10 +131,10 @@ Change change_of(const Deployment& running, const Deployment& wanted, const Serv
           ? ""
           : arrow("restart", policy_name(now->restart), policy_name(then.restart));
   if (std::string reason = reason_to_swap(*now, then); !reason.empty()) {
-    return {ChangeAction::swap, then.name, reason + (policy.empty() ? "" : ", " + policy)};
+    return {ChangeAction::swap, label(then), reason + (policy.empty() ? "" : ", " + policy)};
   }
-  if (!policy.empty()) return {ChangeAction::adjust, then.name, policy};
-  return {ChangeAction::keep, then.name, ""};
+  if (!policy.empty()) return {ChangeAction::adjust, label(then), policy};
+  return {ChangeAction::keep, label(then), ""};
 }
 
 }  // namespace
@@ -153,32 +164,56 @@ const Change& Plan::of(std::string_view service) const {
   throw std::out_of_range("no service '" + std::string(service) + "' in the plan");
 }
 
+bool Plan::replaces(std::string_view service) const {
+  return std::any_of(changes.begin(), changes.end(), [&](const Change& change) {
+    return change.service == service && change.action == ChangeAction::replace;
+  });
+}
+
+bool Plan::stops(std::string_view service) const {
+  return std::any_of(changes.begin(), changes.end(), [&](const Change& change) {
+    return change.service == service && change.action == ChangeAction::stop;
+  });
+}
+
 bool Plan::nothing_to_do() const {
   return std::all_of(changes.begin(), changes.end(), [](const Change& change) {
     return change.action == ChangeAction::keep || change.action == ChangeAction::adjust;
   });
 }
 
-Plan plan_changes(const Deployment& running, const Deployment& wanted) {
+Plan plan_changes(const Deployment& running, const Deployment& wanted, const std::string& host) {
   Plan plan;
-  const auto cannot_change = [&](const std::string& what, const std::string& from,
-                                 const std::string& to) {
-    plan.obstacles.push_back(wanted.file.string() + ": " + what + " cannot be changed from " +
-                             from + " to " + to +
+  const auto obstacle = [&](const std::string& what) {
+    plan.obstacles.push_back(wanted.file.string() + ": " + what +
                              " while the deployment runs; end it and start it anew with quoin up");
   };
   if (running.name_space != wanted.name_space) {
-    cannot_change("the namespace", "'" + running.name_space + "'", "'" + wanted.name_space + "'");
+    obstacle("the namespace cannot be changed from '" + running.name_space + "' to '" +
+             wanted.name_space + "'");
   }
   if (running.domain != wanted.domain) {
-    cannot_change("the domain", std::to_string(running.domain), std::to_string(wanted.domain));
+    obstacle("the domain cannot be changed from " + std::to_string(running.domain) + " to " +
+             std::to_string(wanted.domain));
   }
+  if (running.network != wanted.network) obstacle("the network cannot be changed");
+  if (running.security != wanted.security) obstacle("security cannot be changed");
   for (const ServiceConfig& service : wanted.services) {
-    plan.changes.push_back(change_of(running, wanted, service));
+    if (service.host != host) continue;
+    const Change change = change_of(running, wanted, service);
+    // Of two writers of one strength the readers hear one, until that is gone.
+    if (change.action == ChangeAction::replace && service.strength) {
+      obstacle("service '" + change.service + "' has a strength, and cannot be replaced (" +
+               change.detail + ")");
+    }
+    if (claim_differs(running, service)) {
+      obstacle("strength and lease of service '" + service.name + "' cannot be changed");
+    }
+    plan.changes.push_back(change);
   }
   for (const ServiceConfig& service : running.services) {
-    if (find(wanted, service.name) == nullptr) {
-      plan.changes.push_back({ChangeAction::stop, service.name, ""});
+    if (service.host == host && find(wanted, label(service), host) == nullptr) {
+      plan.changes.push_back({ChangeAction::stop, label(service), ""});
     }
   }
   return plan;

@@ -21,11 +21,11 @@ enum class ChangeAction {
 
 [[nodiscard]] std::string_view action_name(ChangeAction action);
 
-/// What happens to one service.
+/// What happens to one service, or to one instance of it.
 struct Change {
   ChangeAction action = ChangeAction::keep;
-  std::string service;
-  std::string detail;  ///< what differs
+  std::string service;  ///< label
+  std::string detail;   ///< what differs
   /// For replace: whether the new process gets the same scans as the old one, so that one scan can
   /// be named from which it takes over.
   bool same_scans = true;
@@ -38,11 +38,15 @@ struct Plan {
   std::vector<std::string> obstacles;
 
   [[nodiscard]] const Change& of(std::string_view service) const;
+  [[nodiscard]] bool replaces(std::string_view service) const;
+  [[nodiscard]] bool stops(std::string_view service) const;
   /// Whether no process is touched.
   [[nodiscard]] bool nothing_to_do() const;
 };
 
-[[nodiscard]] Plan plan_changes(const Deployment& running, const Deployment& wanted);
+/// For the services that run on `host`.
+[[nodiscard]] Plan plan_changes(const Deployment& running, const Deployment& wanted,
+                                const std::string& host = "");
 
 /// "replace walls: input front -> rear"
 [[nodiscard]] std::string to_text(const Change& change);

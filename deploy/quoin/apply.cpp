@@ -12,7 +12,10 @@
 
 #include "deploy/apply/checksum.hpp"
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/keys/key_check.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/requester.hpp"
 #include "services/runtime/participant.hpp"
 
@@ -24,6 +27,7 @@ using Json = nlohmann::ordered_json;
 
 struct ApplyOptions {
   std::string file;
+  std::string host;
   double wait = 10.0;  // [s]
   bool dry_run = false;
   bool json = false;
@@ -88,12 +92,15 @@ int run(const ApplyOptions& options) {
   const std::filesystem::path file = std::filesystem::absolute(options.file);
   const std::string text = read_deployment(options.file);
   const Deployment deployment = parse_deployment(text, options.file);
-  runtime::Participant participant({deployment.domain, deployment.name_space + "/quoin_apply"});
+  const std::string host = host_to_run(deployment, options.host);
+  require_keys(deployment, {std::string(operator_identity)});
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_apply", operator_identity));
   Requester requester(participant, deployment.name_space);
-  const std::string supervisor(supervisor_name);
+  const std::string supervisor = supervisor_name(host);
   if (!requester.reach(supervisor, Clock::now() + duration(options.wait))) {
     std::cerr << "no deployment with namespace '" << deployment.name_space << "' is up in domain "
-              << deployment.domain
+              << deployment.domain << (host.empty() ? "" : " on host " + host)
               << "; neither can be changed while it runs. quoin up starts a deployment\n";
     return exit_failure;
   }
@@ -121,6 +128,9 @@ Command add_apply(CLI::App& app) {
       "apply", "Change a running deployment to what a file describes, with the least change");
   const auto options = std::make_shared<ApplyOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option(
+      "--host", options->host,
+      "Host whose share of the deployment to change; else that of this machine's name");
   line->add_flag("--dry-run", options->dry_run, "Print the plan, change nothing");
   line->add_option("--wait", options->wait, "How long new processes may take to be ready [s]")
       ->capture_default_str()

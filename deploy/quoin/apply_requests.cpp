@@ -22,14 +22,16 @@ ApplyRequest apply_request(const msg::ControlRequest& request) {
   return result;
 }
 
-ApplyRequests::ApplyRequests(runtime::Participant& participant, const std::string& name_space)
+ApplyRequests::ApplyRequests(runtime::Participant& participant, const std::string& name_space,
+                             std::string name)
     : writer_(participant, control_reply_topic(name_space), runtime::QosPreset::control),
-      reader_(participant, control_request_topic(name_space), runtime::QosPreset::control) {}
+      reader_(participant, control_request_topic(name_space), runtime::QosPreset::control),
+      name_(std::move(name)) {}
 
 // Answers what needs no work.
 bool ApplyRequests::next(msg::ControlRequest& request) {
   while (reader_.take(request)) {
-    if (request.service() != supervisor_name) continue;
+    if (request.service() != name_) continue;
     if (request.action() == msg::ControlAction::CONTROL_APPLY) return true;
     msg::ControlReply answer;
     answer.accepted(request.action() == msg::ControlAction::CONTROL_DESCRIBE);

@@ -20,7 +20,7 @@ namespace quoin::deploy {
 class ApplyRequests {
  public:
   /// Throws std::runtime_error when DDS refuses.
-  ApplyRequests(runtime::Participant& participant, const std::string& name_space);
+  ApplyRequests(runtime::Participant& participant, const std::string& name_space, std::string name);
 
   /// The next request to apply a file. Others are answered: to describe with `file`.
   [[nodiscard]] std::optional<msg::ControlRequest> take(const std::string& file);
@@ -34,6 +34,7 @@ class ApplyRequests {
 
   runtime::Writer<msg::ControlReply> writer_;
   runtime::Reader<msg::ControlRequest> reader_;
+  std::string name_;  // what they are addressed to
   std::string file_;
 };
 

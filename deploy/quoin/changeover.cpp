@@ -82,7 +82,7 @@ void Changeover::carry_out() {
     throw;
   }
   for (const ProcessPlan& plan : plans_) {
-    if (plan_.of(plan.name).action != ChangeAction::replace) world_.supervisor.replan(plan);
+    if (!plan_.replaces(plan.name)) world_.supervisor.replan(plan);
   }
   // Whoever reads is at work before the new source it reads begins.
   for (auto newcomer = newcomers_.rbegin(); newcomer != newcomers_.rend(); ++newcomer) {
@@ -133,14 +133,13 @@ void Changeover::start(const Change& change) {
 // Readers of the present output that are still there, but not for long: they must not be taken for
 // those that are waited for.
 int Changeover::readers_to_go(const ServiceConfig& service) const {
-  if (plan_.of(service.name).action != ChangeAction::replace) return 0;
+  if (!plan_.replaces(label(service))) return 0;
   const std::string topic = output_topic(wanted_, service);
-  if (output_topic(running_, running_.service(service.name)) != topic) return 0;
+  if (output_topic(running_, running_.service(label(service))) != topic) return 0;
   int count = 0;
   for (const ServiceConfig* reader : running_.readers_of(service.name)) {
-    const ChangeAction action = plan_.of(reader->name).action;
-    if (action != ChangeAction::replace && action != ChangeAction::stop) continue;
-    const auto key = world_.supervisor.key_of(reader->name);
+    if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
+    const auto key = world_.supervisor.key_of(label(*reader));
     if (key && world_.supervisor.running(*key)) ++count;
   }
   return count;
@@ -149,10 +148,10 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
 void Changeover::wait_until_ready() {
   const auto deadline = Clock::now() + patience_;
   std::set<std::string> waiting;
-  for (const Newcomer& newcomer : newcomers_) waiting.insert(newcomer.config->name);
+  for (const Newcomer& newcomer : newcomers_) waiting.insert(label(*newcomer.config));
   while (!waiting.empty()) {
     for (Newcomer& newcomer : newcomers_) {
-      const std::string& name = newcomer.config->name;
+      const std::string& name = label(*newcomer.config);
       if (!waiting.contains(name)) continue;
       if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
         const std::string line = message_of(world_.last_line(name), name);
@@ -178,12 +177,12 @@ void Changeover::wait_until_ready() {
 
 bool Changeover::ready(Newcomer& newcomer) {
   const auto process =
-      world_.monitor.process(newcomer.config->name, world_.supervisor.process_id(newcomer.key));
+      world_.monitor.process(label(*newcomer.config), world_.supervisor.process_id(newcomer.key));
   if (!process) return false;
   if (!publishes(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
   newcomer.incarnation = process->incarnation;
-  return ask(newcomer.config->name, newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
+  return ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
       .has_value();
 }
 
@@ -195,7 +194,7 @@ std::uint64_t Changeover::incarnation_of(int key) const {
 }
 
 std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
-  const std::string& name = newcomer.config->name;
+  const std::string& name = label(*newcomer.config);
   const auto process = world_.monitor.process(name, world_.supervisor.process_id(newcomer.key));
   std::string text =
       "the new process of service '" + name + "' was not ready within " + in_seconds(patience_);
@@ -215,12 +214,12 @@ void Changeover::swap_methods() {
 }
 
 bool Changeover::swap(const ServiceConfig& config, std::string& refusal) {
-  if (!ask(config.name, 0, msg::ControlAction::CONTROL_DESCRIBE)) {
+  if (!ask(label(config), 0, msg::ControlAction::CONTROL_DESCRIBE)) {
     refusal = "does not answer";
     return false;
   }
   msg::ControlRequest request;
-  request.service(config.name);
+  request.service(label(config));
   request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
   set_method(config, request);
   const std::uint64_t number = world_.requester.send(request);
@@ -232,7 +231,7 @@ bool Changeover::swap(const ServiceConfig& config, std::string& refusal) {
   } else if (!reply->accepted()) {
     refusal = "refuses: " + reply->detail();
   } else if (reply->detail().empty()) {
-    first_scans_[config.name] = reply->first_sequence_number();
+    first_scans_[label(config)] = reply->first_sequence_number();
   }
   return reply && reply->accepted();
 }
@@ -244,7 +243,7 @@ void Changeover::roll_back() {
   for (const Newcomer& newcomer : newcomers_) {
     const int process_id = world_.supervisor.process_id(newcomer.key);
     end(newcomer.key);
-    world_.monitor.forget(newcomer.config->name, process_id);
+    world_.monitor.forget(label(*newcomer.config), process_id);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
     const int key = world_.supervisor.add(plan);
@@ -266,13 +265,13 @@ void Changeover::begin(const Newcomer& newcomer) {
   }
   const msg::ControlReply held = hold(newcomer, milliseconds(0));
   if (held.held_scans() > 0 || newcomer.config->input.empty()) {
-    first_scans_[newcomer.config->name] = held.first_sequence_number();
+    first_scans_[label(*newcomer.config)] = held.first_sequence_number();
   }
   begin_with(newcomer, 0);
 }
 
 void Changeover::take_over(const Newcomer& newcomer) {
-  const auto predecessor = predecessors_.find(newcomer.config->name);
+  const auto predecessor = predecessors_.find(label(*newcomer.config));
   if (predecessor == predecessors_.end()) {
     begin(newcomer);
     return;
@@ -282,7 +281,7 @@ void Changeover::take_over(const Newcomer& newcomer) {
   const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
   world_.supervisor.retire(predecessor->second, false);
   const auto handed_over =
-      ask(newcomer.config->name, incarnation_of(predecessor->second),
+      ask(label(*newcomer.config), incarnation_of(predecessor->second),
           msg::ControlAction::CONTROL_HAND_OVER,
           same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
   std::uint64_t scan = 0;  // everything that is held
@@ -292,7 +291,7 @@ void Changeover::take_over(const Newcomer& newcomer) {
     world_.supervisor.kill(predecessor->second);
     (void)wait_until([&] { return !world_.supervisor.running(predecessor->second); }, seconds(5));
   }
-  first_scans_[newcomer.config->name] = same_scans ? scan : held.first_sequence_number();
+  first_scans_[label(*newcomer.config)] = same_scans ? scan : held.first_sequence_number();
   begin_with(newcomer, scan);
 }
 
@@ -300,7 +299,7 @@ msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patien
   const auto deadline = Clock::now() + patience;
   while (true) {
     const auto reply =
-        ask(newcomer.config->name, newcomer.incarnation, msg::ControlAction::CONTROL_HOLD);
+        ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
     if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
     if (!world_.pump()) return *reply;
@@ -309,8 +308,8 @@ msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patien
 
 void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
   world_.supervisor.adopt(newcomer.key, *newcomer.plan);
-  const auto reply =
-      ask(newcomer.config->name, newcomer.incarnation, msg::ControlAction::CONTROL_TAKE_OVER, scan);
+  const auto reply = ask(label(*newcomer.config), newcomer.incarnation,
+                         msg::ControlAction::CONTROL_TAKE_OVER, scan);
   // Started again it works like any other.
   if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
 }
@@ -366,10 +365,10 @@ Deployment described_by_its_services(const Deployment& deployment, const Supervi
   Deployment described = deployment;
   std::map<std::uint64_t, ServiceConfig*> asked;
   for (ServiceConfig& service : described.services) {
-    const auto key = supervisor.key_of(service.name);
+    const auto key = supervisor.key_of(label(service));
     if (service.method.empty() || !key || !supervisor.running(*key)) continue;
     msg::ControlRequest request;
-    request.service(service.name);
+    request.service(label(service));
     request.action(msg::ControlAction::CONTROL_DESCRIBE);
     asked[requester.send(request)] = &service;
   }

@@ -6,18 +6,20 @@
 
 #include "deploy/apply/checksum.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 
 namespace quoin::deploy {
 
 namespace {
 
-std::vector<ProcessPlan> plans_of(const Deployment& deployment, const FrozenFile& copy) {
+std::vector<ProcessPlan> plans_of(const Deployment& deployment, const std::string& host,
+                                  const FrozenFile& copy) {
   // The monitor reads what comes out at the ends.
   const auto observers = [](const ServiceConfig& service) {
     return find_kind(service.kind)->output == MessageType::corners ? 1 : 0;
   };
-  return process_plans(deployment, observers, copy.path());
+  return process_plans(deployment, host, observers, copy.path());
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -28,13 +30,13 @@ std::string joined(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-Composition::Composition(const std::filesystem::path& file) {
+Composition::Composition(const std::filesystem::path& file, const std::string& host) {
   const std::string text = read_deployment(file);
   deployment_ = parse_deployment(text, file);
+  host_ = host_to_run(deployment_, host);
   copy_ = std::make_unique<FrozenFile>(text);
+  plans_ = plans_of(deployment_, host_, *copy_);
 }
-
-std::vector<ProcessPlan> Composition::plans() const { return plans_of(deployment_, *copy_); }
 
 std::vector<msg::ControlStep> steps_of(const Plan& plan) {
   std::vector<msg::ControlStep> steps;
@@ -71,14 +73,14 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
   const Deployment wanted = parse_deployment(text, request.file);
   const Deployment running =
       described_by_its_services(deployment_, world.supervisor, world.requester, world.pump);
-  const Plan plan = plan_changes(running, wanted);
+  const Plan plan = plan_changes(running, wanted, host_);
   outcome.steps = steps_of(plan);
   if (!plan.obstacles.empty()) throw std::runtime_error(joined(plan.obstacles));
   on_plan(plan);
   if (request.dry_run) return;
 
   auto copy = std::make_unique<FrozenFile>(text);
-  const std::vector<ProcessPlan> plans = plans_of(wanted, *copy);
+  std::vector<ProcessPlan> plans = plans_of(wanted, host_, *copy);
   Changeover changeover(world, running, wanted, plan, plans, request.patience);
   outcome.rolled_back = true;
   changeover.carry_out();
@@ -88,6 +90,7 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
     if (first != changeover.first_scans().end()) step.first_sequence_number(first->second);
   }
   deployment_ = wanted;
+  plans_ = std::move(plans);
   previous_copy_ = std::move(copy_);
   copy_ = std::move(copy);
 }

@@ -37,11 +37,15 @@ struct ApplyOutcome {
 /// The deployment that runs: as it was read, whatever has become of its file since.
 class Composition {
  public:
-  /// Throws DeploymentError.
-  explicit Composition(const std::filesystem::path& file);
+  /// `host` as host_to_run takes it. Throws DeploymentError, or std::runtime_error when a program
+  /// is missing.
+  Composition(const std::filesystem::path& file, const std::string& host);
 
   [[nodiscard]] const Deployment& deployment() const { return deployment_; }
-  [[nodiscard]] std::vector<ProcessPlan> plans() const;
+  /// Whose share of it runs here.
+  [[nodiscard]] const std::string& host() const { return host_; }
+  /// How its processes are started.
+  [[nodiscard]] const std::vector<ProcessPlan>& plans() const { return plans_; }
 
   /// Reads the file and changes what runs to what it describes, or changes nothing. `on_plan` is
   /// told the plan before anything is done.
@@ -53,6 +57,8 @@ class Composition {
                  const std::function<void(const Plan&)>& on_plan, ApplyOutcome& outcome);
 
   Deployment deployment_;
+  std::string host_;
+  std::vector<ProcessPlan> plans_;
   std::unique_ptr<FrozenFile> copy_;
   std::unique_ptr<FrozenFile> previous_copy_;  // a process may just be about to read it
 };

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/network_options.hpp"
 #include "deploy/quoin/requester.hpp"
 #include "services/runtime/participant.hpp"
 
@@ -61,20 +63,17 @@ void print(const msg::ControlReply& reply) {
 }
 
 int run(const ControlOptions& options, msg::ControlAction action) {
-  auto [domain, name_space] = options.network;
-  if (!options.file.empty()) {
-    const Deployment deployment = load_deployment(options.file);
-    (void)deployment.service(options.service);  // a name that is none is told at once
-    domain = deployment.domain;
-    name_space = deployment.name_space;
-  }
-  runtime::Participant participant({domain, name_space + "/quoin_control"});
-  Requester requester(participant, name_space);
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  // A name that is none is told at once.
+  if (!options.file.empty()) (void)deployment.service(options.service);
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_control", operator_identity));
+  Requester requester(participant, deployment.name_space);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                            std::chrono::duration<double>(options.wait));
   if (!requester.reach(options.service, deadline)) {
-    std::cerr << "no service '" << options.service << "' of namespace '" << name_space
-              << "' answers in domain " << domain
+    std::cerr << "no service '" << options.service << "' of namespace '" << deployment.name_space
+              << "' answers in domain " << deployment.domain
               << "; is it running, and does it have methods? (quoin status shows who is there)\n";
     return exit_failure;
   }

@@ -36,12 +36,12 @@ struct ProcessWatch {
   std::string detail;
 };
 
-/// Listens to the heartbeats of a deployment and to what its corner services publish, in a thread
-/// of its own.
+/// Listens to the heartbeats of a deployment and to what the corner services of one host's share of
+/// it publish, in a thread of its own. Services are called by their labels.
 class Monitor {
  public:
   /// Throws std::runtime_error when DDS refuses.
-  explicit Monitor(const Deployment& deployment);
+  Monitor(const Deployment& deployment, const std::string& host);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
@@ -60,14 +60,16 @@ class Monitor {
 
   /// Whether the service has ever been active.
   [[nodiscard]] bool was_active(const std::string& name) const;
+  /// The share's, as below.
   [[nodiscard]] bool all_were_active() const;
-  /// "x (waiting for 2 readers), y" for those that were never active.
+  /// "x (waiting for 2 readers), y" for those of the share that were never active.
   [[nodiscard]] std::string never_active() const;
-  /// Processes that report as a service of this deployment, by service.
+  /// Processes that report as a service of the share, by service.
   [[nodiscard]] std::map<std::string, std::set<int>> processes() const;
   [[nodiscard]] int newest_process(const std::string& name) const;
 
-  /// Everything but durations and restarts, which the supervisor knows.
+  /// Of the share, but for the scans of all sources; everything but durations and restarts, which
+  /// the supervisor knows.
   [[nodiscard]] DeploymentFigures figures() const;
 
   /// After all services have ended: waits up to `timeout` for the last heartbeats of `names`, takes
@@ -76,11 +78,13 @@ class Monitor {
 
  private:
   struct ServiceWatch {
+    std::string name;  // without a strength
     Incarnations incarnations;
     std::map<std::uint64_t, ProcessWatch> processes;  // by incarnation
     std::string kind;
     std::string method;
     bool source = false;
+    bool here = true;      // in the share
     bool present = false;  // part of the deployment now
     bool settled = false;  // has ever been
     bool was_active = false;
@@ -88,6 +92,7 @@ class Monitor {
   struct CornerWatch {
     std::string name;
     std::string source;
+    msg::StageTrace source_trace;  // of the last message
     std::unique_ptr<runtime::Reader<msg::Corners>> reader;
     runtime::ScanAccounting accounting;
     bool joined_late = false;  // the scans before were for nobody
@@ -103,17 +108,20 @@ class Monitor {
   void take(CornerWatch& watch, const msg::Corners& message);
   void account_for_the_end();
   void listen_to_corners(const Deployment& deployment, const ServiceConfig& service);
+  [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
+  [[nodiscard]] static bool ended(const ServiceWatch& watch);
+  [[nodiscard]] bool is_present(const std::string& name) const;
   [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
 
   std::string file_;
-  std::string name_space_;
+  std::string host_;
   runtime::Participant participant_;
   runtime::Reader<msg::ServiceStatus> status_reader_;
   runtime::WaitSet wait_set_;
   mutable std::mutex mutex_;
-  std::map<std::string, ServiceWatch> services_;
-  std::vector<std::string> order_;          // of the services, removed ones last
-  std::map<int, std::uint64_t> forgotten_;  // process ids; up to what incarnation
+  std::map<std::string, ServiceWatch> services_;  // by label
+  std::vector<std::string> order_;                // of the services, removed ones last
+  std::map<int, std::uint64_t> forgotten_;        // process ids; up to what incarnation
   std::vector<CornerWatch> corners_;
   msg::ServiceStatus status_;
   msg::Corners message_;

@@ -16,6 +16,8 @@
 #include "deploy/quoin/composition.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/exclusive.hpp"
+#include "deploy/quoin/host.hpp"
+#include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/requester.hpp"
 #include "deploy/quoin/signals.hpp"
@@ -32,6 +34,7 @@ using std::chrono::milliseconds;
 
 struct UpOptions {
   std::string file;
+  std::string host;
   double duration = 0.0;  // [s]; 0: no end
   bool json = false;
   bool quiet = false;
@@ -49,21 +52,24 @@ class Run {
   explicit Run(const UpOptions& options)
       : options_(options),
         watch_(options.file),
-        composition_(options.file),
+        composition_(options.file, options.host),
         exclusive_(composition_.deployment()),
-        monitor_(composition_.deployment()),
+        monitor_(composition_.deployment(), composition_.host()),
         requester_(monitor_.participant(), composition_.deployment().name_space),
-        apply_requests_(monitor_.participant(), composition_.deployment().name_space),
+        apply_requests_(monitor_.participant(), composition_.deployment().name_space,
+                        supervisor_name(composition_.host())),
         display_(display_mode(options)),
-        supervisor_(
-            composition_.plans(),
-            {.output = [this](const std::string& name,
-                              const std::string& line) { log(name, line); },
-             .event = [this](
-                          const std::string& name,
-                          const std::string& text) { display_.log("quoin", name + ": " + text); },
-             .was_active = [this](const std::string& name) { return monitor_.was_active(name); }}) {
-  }
+        supervisor_(composition_.plans(),
+                    {.output = [this](const std::string& name,
+                                      const std::string& line) { log(name, line); },
+                     .event =
+                         [this](const std::string& name, const std::string& text) {
+                           display_.log("quoin", name + ": " + text);
+                         },
+                     .was_active =
+                         [this](const std::string& name) {
+                           return name == discovery_process || monitor_.was_active(name);
+                         }}) {}
 
   int run() {
     begun_ = Clock::now();
@@ -243,8 +249,10 @@ class Run {
   [[nodiscard]] std::vector<std::string> orderly_ended() const {
     std::vector<std::string> names;
     for (const ServiceConfig& service : composition_.deployment().services) {
-      if (supervisor_.figures(service.name).phase == ProcessPhase::finished)
-        names.push_back(service.name);
+      if (service.host == composition_.host() &&
+          supervisor_.figures(label(service)).phase == ProcessPhase::finished) {
+        names.push_back(label(service));
+      }
     }
     return names;
   }
@@ -276,6 +284,8 @@ Command add_up(CLI::App& app) {
       app.add_subcommand("up", "Start a deployment and watch over it until it ends or Ctrl-C");
   const auto options = std::make_shared<UpOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option("--host", options->host,
+                   "Start the share of this host; else of the one called like this machine");
   line->add_option("--duration", options->duration,
                    "Stop after this time [s], counted from when all are active")
       ->check(more_than_zero());

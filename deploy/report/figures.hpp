@@ -62,6 +62,8 @@ struct ServiceFigures {
   std::string method;  ///< "" for kinds without methods
   ServiceReport report;
   std::uint64_t restarts = 0;
+  std::string host = {};  ///< where it runs, as far as that is known
+  double age = -1.0;      ///< [s] of its last heartbeat; negative: none was heard
 };
 
 /// What arrived at the end of a chain, seen from outside.

@@ -218,7 +218,7 @@ void Supervisor::die(Child& child, const ProcessEnd& end) {
     callbacks_.event(child.plan.name, text);
     fail(exit_failure);
   } else if (child.plan.restart) {
-    const milliseconds pause = child.backoff.next(lifetime);
+    const milliseconds pause = std::max(child.plan.least_pause, child.backoff.next(lifetime));
     child.restart_at = Clock::now() + pause;
     child.figures.phase = ProcessPhase::pausing;
     callbacks_.event(child.plan.name, text + "; starting again in " + seconds_text(pause));
@@ -235,6 +235,7 @@ void Supervisor::advance() {
     return;
   }
   kill_the_late(now);
+  bool has_source = false;  // else somebody on another host decides when it is over
   bool source_left = false;
   for (Child& child : children_) {
     if (child.figures.phase == ProcessPhase::pausing && now >= child.restart_at) {
@@ -246,11 +247,13 @@ void Supervisor::advance() {
         callbacks_.event(child.plan.name, std::string("cannot be started: ") + error.what());
       }
     }
+    if (child.standing == Standing::retired) continue;
+    has_source = has_source || child.plan.source;
     source_left =
         source_left || (child.plan.source && (child.figures.phase == ProcessPhase::running ||
                                               child.figures.phase == ProcessPhase::pausing));
   }
-  if (!source_left) request_stop();
+  if (has_source && !source_left) request_stop();
 }
 
 void Supervisor::kill_the_late(Clock::time_point now) {

@@ -26,7 +26,8 @@ struct ProcessPlan {
   std::vector<std::string> arguments;
   int level = 0;  ///< distance from the source; level 0 is stopped first
   bool source = false;
-  bool restart = true;  ///< start again when it dies
+  bool restart = true;                       ///< start again when it dies
+  std::chrono::milliseconds least_pause{0};  ///< before that
 };
 
 enum class ProcessPhase {
@@ -46,8 +47,9 @@ struct ProcessFigures {
 /// Starts processes, starts those again that die, and stops them level by level so that nothing in
 /// flight between them is lost. Single-threaded: everything happens inside `poll`.
 ///
-/// Ends when all sources have ended (what they published is drained by stopping the levels behind
-/// them), when stopped, or when a process rejects its configuration before it was first active.
+/// Ends when all sources, if it has any, have ended (what they published is drained by stopping the
+/// levels behind them), when stopped, or when a process rejects its configuration before it was
+/// first active.
 class Supervisor {
  public:
   struct Callbacks {

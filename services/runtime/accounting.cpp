@@ -12,6 +12,15 @@ struct ScanAccounting::Made {
   bool restarted = false;  // only estimated: the end of the old process is not known
 };
 
+// Whether a stage is another process than before, which lived already while the old one did.
+bool ScanAccounting::took_over(const msg::Header& header, std::size_t position) const {
+  const msg::StageTrace& now = header.trace()[position];
+  if (position >= previous_->stages.size()) return false;
+  const StagePosition& then = previous_->stages[position];
+  return then.service == now.service() && then.incarnation != now.incarnation() &&
+         static_cast<std::int64_t>(now.incarnation()) < then.published;
+}
+
 ScanAccounting::Made ScanAccounting::made_since(const msg::Header& header,
                                                 std::size_t position) const {
   const msg::StageTrace& now = header.trace()[position];
@@ -21,7 +30,8 @@ ScanAccounting::Made ScanAccounting::made_since(const msg::Header& header,
       return {now.index() > then.index ? now.index() - then.index - 1 : 0, false};
     }
   }
-  return {now.index(), true};
+  // What stands by makes results all the time, but nobody took them.
+  return {took_over(header, position) ? 0 : now.index(), true};
 }
 
 std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool same_source) const {
@@ -83,11 +93,13 @@ void ScanAccounting::remember(const msg::Header& header) {
     previous_->stages[i].service = trace.service();
     previous_->stages[i].incarnation = trace.incarnation();
     previous_->stages[i].index = trace.index();
+    previous_->stages[i].published = trace.published();
   }
 }
 
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   std::vector<Loss> losses;
+  last_was_duplicate_ = false;
   if (header.trace().empty()) return losses;  // not from a stage of this project
   if (!previous_) {
     first_sequence_ = header.sequence_number();
@@ -95,9 +107,10 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
     const bool same_source = continues_numbers(header);
     if (same_source && header.sequence_number() <= previous_->sequence_number) {
       ++duplicates_;
+      last_was_duplicate_ = true;
       return losses;
     }
-    losses = losses_before(header, same_source);
+    if (same_source || !took_over(header, 0)) losses = losses_before(header, same_source);
     for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
   }
   ++received_;

@@ -19,8 +19,9 @@ const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment,
                                           const std::string& name, const std::string& kind) {
   std::vector<std::string> candidates;
   for (const deploy::ServiceConfig& service : deployment.services) {
-    if (service.name == name && service.kind == kind) return service;
-    if (service.kind == kind) candidates.push_back(service.name);
+    if (service.kind != kind) continue;
+    if (label(service) == name) return service;
+    candidates.push_back(label(service));
   }
   throw deploy::DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " +
                                  kind + suggestion(name, candidates)});
@@ -33,7 +34,7 @@ Service::Service(StopSignal& stop_signal, const deploy::Deployment& deployment_f
     : stop(stop_signal),
       deployment(deployment_file),
       config(service_config),
-      participant({deployment.domain, deployment.name_space + "/" + config.name}),
+      participant(participant_config(deployment, label(config))),
       heartbeat(participant, deployment, config),
       expected_readers(readers),
       succession(held) {}

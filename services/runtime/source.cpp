@@ -38,7 +38,8 @@ class PublishingSource final : public ServiceActivity<Source> {
     trace.incarnation(service_.heartbeat.incarnation());
     trace.index(next_index_);
     trace.received(now_ns());
-    const bool delivered = deliver(writer_, scan, trace, lossless_, service_.stop);
+    const bool delivered =
+        deliver(writer_, scan, trace, lossless_, service_.stop, service_.heartbeat.pulse());
     if (delivered) {
       ++next_index_;
       service_.heartbeat.count_published(trace.published(), trace.received(), trace.published(), 0);
@@ -72,7 +73,7 @@ std::optional<std::uint64_t> wait_for_begin(Service& service, const WriterBase& 
 int publish_all(Service& service, const std::function<void(Source&)>& body) {
   Writer<msg::Scan> writer(service.participant,
                            deploy::output_topic(service.deployment, service.config),
-                           qos_preset(service.config.qos));
+                           output_qos(service.config));
   service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
     status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));
     status.incompatible_qos(writer.incompatible_qos());
@@ -108,6 +109,7 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
     }
     next = source.next_sequence();
   }
+  service.heartbeat.stopping();
   // What has been written must reach the readers before the writer goes.
   if (!writer.wait_for_acknowledgments(std::chrono::seconds(2))) {
     spdlog::warn("not all readers have acknowledged the last scans");

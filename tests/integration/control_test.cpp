@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <ctime>
 #include <idl/Control.h>
 #include <idl/Scan.h>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -202,6 +204,52 @@ TEST_P(HundredSwaps, LoseNoScanAndAreInForceAtOnce) {
   EXPECT_EQ(recorder_.accounting().duplicates(), 0U);
 }
 
+// As fast as a script that runs wild: unknown methods, oversized values, a service that is none.
+TEST_F(Control, AFloodOfBadRequestsIsAnsweredOrCountedAndCostsNoScan) {
+  tests::StatusRecorder statuses(participant_, deployment_);
+  constexpr std::uint64_t first = 1000;
+  constexpr std::uint64_t count = 3000;
+  std::size_t replies = 0;
+  std::set<std::string> reasons;
+  msg::ControlReply reply;
+  const auto take_replies = [&] {
+    recorder_.poll();
+    while (replies_.take(reply)) {
+      if (reply.request() < first) continue;
+      EXPECT_FALSE(reply.accepted());
+      EXPECT_EQ(reply.service(), "wctls");
+      reasons.insert(reply.detail());
+      ++replies;
+    }
+  };
+  msg::ControlRequest request;
+  request.requester("test");
+  request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    request.service(k % 3 == 0 ? "nobody" : "wctls");
+    request.method(k % 3 == 1 ? "wclts" : std::string(10'000, 'x'));
+    request.request(first + k);
+    EXPECT_TRUE(requests_.write(request));
+    take_replies();
+    const timespec millisecond{0, 1'000'000};  // the rate of the flood
+    ::nanosleep(&millisecond, nullptr);
+  }
+  EXPECT_TRUE(statuses.wait_for("wctls",
+                                [&](const msg::ServiceStatus& status) {
+                                  take_replies();
+                                  return status.control_dropped() > 0 &&
+                                         replies + status.control_dropped() >= count / 3;
+                                }))
+      << replies << " replies, " << statuses.latest("wctls").control_dropped() << " dropped";
+  EXPECT_LE(replies + statuses.latest("wctls").control_dropped(), count / 3 * 2);
+  EXPECT_THAT(reasons, testing::Contains(HasSubstr("did you mean 'wctls'?")));
+  EXPECT_THAT(reasons, testing::Contains(HasSubstr("larger than any request")));
+  const msg::ControlReply now = ask(msg::ControlAction::CONTROL_DESCRIBE, "", {});
+  EXPECT_TRUE(now.accepted());
+  EXPECT_EQ(now.method(), "wctls");
+  EXPECT_EQ(recorder_.accounting().lost(), 0U);
+  EXPECT_EQ(recorder_.accounting().duplicates(), 0U);
+}
 INSTANTIATE_TEST_SUITE_P(Rates, HundredSwaps,
                          testing::Values(Load{10, ""}, Load{200, "qos: lossless\n"}),
                          [](const auto& load) { return std::to_string(load.param.rate) + "Hz"; });

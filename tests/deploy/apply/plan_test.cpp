@@ -127,5 +127,32 @@ TEST(Plan, NamespaceAndDomainStay) {
               ElementsAre(HasSubstr("the domain cannot be changed from 1 to 2")));
 }
 
+TEST(Plan, CountsInstancesAndHostsApart) {
+  const auto fitters = [](const std::string& more) {
+    return deployment(
+        "  - {name: front, kind: simulated, host: a}\n"
+        "  - {name: walls, kind: segmentation, input: front, host: b}\n"
+        "  - {name: fit, kind: line_fitting, input: walls, host: b, strength: 2}\n" +
+            more,
+        "network: {interfaces: [lo]}\n");
+  };
+  const Deployment one = fitters("");
+  const Deployment two =
+      fitters("  - {name: fit, kind: line_fitting, input: walls, host: b, strength: 1}\n");
+  const Plan here = plan_changes(one, two, "b");
+  EXPECT_THAT(here.obstacles, IsEmpty());
+  EXPECT_EQ(here.of("fit@2").action, ChangeAction::keep);
+  EXPECT_EQ(here.of("fit@1").action, ChangeAction::start);
+  EXPECT_EQ(plan_changes(one, two, "a").changes.size(), 1U);
+  EXPECT_EQ(plan_changes(two, one, "b").of("fit@1").action, ChangeAction::stop);
+  const Deployment shared = deployment(
+      "  - {name: front, kind: simulated, host: a}\n"
+      "  - {name: walls, kind: segmentation, input: front, host: b}\n"
+      "  - {name: fit, kind: line_fitting, input: walls, host: b}\n",
+      "network: {interfaces: [lo]}\n");
+  EXPECT_THAT(plan_changes(one, shared, "b").obstacles,
+              ElementsAre(HasSubstr("strength and lease of service 'fit' cannot be changed")));
+}
+
 }  // namespace
 }  // namespace quoin::deploy

@@ -72,6 +72,16 @@ TEST_F(Supervision, GivesNoInput) {
   EXPECT_THAT(lines_, ElementsAre("front: end"));
 }
 
+TEST_F(Supervision, GoesOnWithoutSourcesUntilAskedToStop) {
+  start({plan("walls", stage, 1), plan("lines", stage, 2)});
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  ASSERT_TRUE(wait_for_line("lines: ready"));
+  EXPECT_FALSE(supervisor_->stopping());
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
 TEST_F(Supervision, DrainsTheStagesLevelByLevelWhenTheSourcesHaveFinished) {
   start({plan("front", "read never < /dev/null; sleep 0.5"), plan("walls", stage, 1),
          plan("lines", stage, 2)});

@@ -33,24 +33,6 @@ Process TestDeployment::quoin(std::vector<std::string> arguments) const {
   return Process("quoin", arguments, directory_.path());
 }
 
-CornerRecorder::CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
-                               const std::string& service)
-    : reader_(participant, deployment.topic(service),
-              runtime::qos_preset(deployment.deployment().service(service).qos)) {}
-
-std::size_t CornerRecorder::poll() {
-  msg::Corners message;
-  while (reader_.take(message)) {
-    accounting_.receive(message.header());
-    messages_.push_back(message);
-  }
-  return messages_.size();
-}
-
-bool CornerRecorder::wait_for(std::size_t count, std::chrono::milliseconds timeout) {
-  return eventually([&] { return poll() >= count; }, timeout);
-}
-
 StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)
     : reader_(participant, deploy::status_topic(deployment.deployment().name_space),
               runtime::QosPreset::state) {}
