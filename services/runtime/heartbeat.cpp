@@ -38,6 +38,8 @@ std::string state_name(msg::ServiceState state) {
   switch (state) {
     case msg::STATE_STARTING:
       return "starting";
+    case msg::STATE_HELD:
+      return "held";
     case msg::STATE_ACTIVE:
       return "active";
     case msg::STATE_FINISHED:
@@ -93,6 +95,11 @@ void Heartbeat::set_detail(const std::string& detail) {
 void Heartbeat::set_method(const std::string& method) {
   const std::lock_guard lock(mutex_);
   status_.method(method);
+}
+
+void Heartbeat::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
 }
 
 void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
