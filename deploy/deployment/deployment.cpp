@@ -74,6 +74,8 @@ std::string control_request_topic(std::string_view name_space) {
   return std::string(name_space) + "/control/request";
 }
 
+std::string supervisor_name(std::string_view host) { return "@" + std::string(host); }
+
 std::string control_reply_topic(std::string_view name_space) {
   return std::string(name_space) + "/control/reply";
 }

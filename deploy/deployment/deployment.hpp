@@ -130,7 +130,11 @@ class DeploymentError : public std::runtime_error {
 /// Reads and validates a deployment file. Throws DeploymentError with all that is wrong.
 [[nodiscard]] Deployment load_deployment(const std::filesystem::path& file);
 
-/// The same for text already in memory; `file` is what messages name.
+/// The text of a deployment file, not more of it than parse_deployment takes. Throws
+/// DeploymentError.
+[[nodiscard]] std::string read_deployment(const std::filesystem::path& file);
+
+/// The same as load_deployment for text already in memory; `file` is what messages name.
 [[nodiscard]] Deployment parse_deployment(const std::string& text,
                                           const std::filesystem::path& file);
 
@@ -152,5 +156,9 @@ class DeploymentError : public std::runtime_error {
 [[nodiscard]] std::string status_topic(std::string_view name_space);
 [[nodiscard]] std::string control_request_topic(std::string_view name_space);
 [[nodiscard]] std::string control_reply_topic(std::string_view name_space);
+
+/// What control requests to the supervisor of a host's share are addressed to; no service is called
+/// so.
+[[nodiscard]] std::string supervisor_name(std::string_view host);
 
 }  // namespace quoin::deploy

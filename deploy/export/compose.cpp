@@ -42,7 +42,7 @@ std::string project_name(const ExportPlan& plan) {
 }
 
 std::string restart_policy(const ExportedService& service) {
-  if (service.config->restart == RestartPolicy::never) return "\"no\"";
+  if (service.restart == RestartPolicy::never) return "\"no\"";
   return service.may_finish ? "on-failure" : "unless-stopped";
 }
 
@@ -54,26 +54,24 @@ std::string device_lines(const ExportedService& service, const ComposeOptions& o
          "\n    group_add:\n      - dialout\n";
 }
 
-/// In the containers.
-std::string deployment_file(const ExportPlan& plan) {
-  return (std::filesystem::path(deployment_folder) / plan.file.filename()).string();
-}
-
-/// A container to which more lines may be added.
-std::string container_lines(const ExportPlan& plan, const ComposeOptions& options,
-                            const std::string& id, const std::vector<std::string>& command,
-                            const std::string& restart) {
-  std::string text = "  " + yaml_text(id) + ":\n";
+std::string service_lines(const ExportPlan& plan, const ExportedService& service,
+                          const ComposeOptions& options) {
+  const auto file = std::filesystem::path(deployment_folder) / plan.file.filename();
+  std::string text = "  " + yaml_text(service.id) + ":\n";
   text += "    image: " + yaml_text(options.image) + "\n";
   text += "    command:\n";
-  for (const std::string& word : command) text += "      - " + yaml_text(word) + "\n";
+  text += "      - " + yaml_text(service.program) + "\n";
+  for (const std::string& argument : service.arguments(file)) {
+    text += "      - " + yaml_text(argument) + "\n";
+  }
   text +=
       "    network_mode: host\n"
       "    init: true\n"
       "    restart: " +
-      restart +
+      restart_policy(service) +
       "\n"
-      "    user: \"65534:65534\"\n"
+      // Nobody, unless another one is to read the keys.
+      "    user: \"${QUOIN_USER:-65534:65534}\"\n"
       "    read_only: true\n"
       "    cap_drop:\n      - ALL\n"
       "    security_opt:\n      - no-new-privileges:true\n"
@@ -84,15 +82,14 @@ std::string container_lines(const ExportPlan& plan, const ComposeOptions& option
       "        source: " +
       yaml_text(plan.file.parent_path().string()) + "\n        target: " + deployment_folder +
       "\n        read_only: true\n";
-  return text;
-}
-
-std::string service_lines(const ExportPlan& plan, const ExportedService& service,
-                          const ComposeOptions& options) {
-  std::string text = container_lines(
-      plan, options, service.id,
-      {service.program, "--deployment", deployment_file(plan), "--service", service.label},
-      restart_policy(service));
+  if (plan.deployment->security) {
+    const std::string keys =
+        yaml_text(std::filesystem::absolute(plan.deployment->security->directory)
+                      .lexically_normal()
+                      .string());
+    text += "      - type: bind\n        source: " + keys + "\n        target: " + keys +
+            "\n        read_only: true\n";
+  }
   text += device_lines(service, options);
   if (service.after.empty()) return text;
   text += "    depends_on:\n";
@@ -106,11 +103,6 @@ std::string compose_file(const ExportPlan& plan, const ComposeOptions& options) 
   std::string text = std::string(export_marker) + "\n";
   text += "# The image is built by deploy/container/Dockerfile.\n";
   text += "name: " + yaml_text(project_name(plan)) + "\nservices:\n";
-  if (has_discovery_servers(plan)) {
-    // Ends at once, in order, on a host that has the address of none of the servers.
-    text += container_lines(plan, options, discovery_id,
-                            {"quoin", "discovery", deployment_file(plan)}, "on-failure");
-  }
   for (const ExportedService& service : plan.services) {
     text += service_lines(plan, service, options);
   }

@@ -24,19 +24,19 @@ UnitFile target(const ExportPlan& plan) {
   for (const ExportedService& service : plan.services) {
     text += "Wants=" + unit_name(plan, service.id) + "\n";
   }
-  if (has_discovery_servers(plan)) text += "Wants=" + unit_name(plan, discovery_id) + "\n";
   text += "\n[Install]\nWantedBy=multi-user.target\n";
   return {plan.id + ".target", text};
 }
 
 /// What `quoin up` does, as far as systemd can. Its pauses do not grow before version 254.
-std::string restart_lines(const ExportedService& service) {
-  if (service.config->restart == RestartPolicy::never) return "Restart=no\n";
+std::string restart_lines(const ExportPlan& plan, const ExportedService& service) {
+  if (service.restart == RestartPolicy::never) return "Restart=no\n";
   // A source that has published everything is done.
   std::string text = service.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
   text += "RestartSec=1s\n";
-  // 2: a wrong configuration, 3: an unusable input. A device may be plugged in later.
-  if (!service.serial_port) text += "RestartPreventExitStatus=2 3\n";
+  // 2: a wrong configuration, 3: an unusable input. But a device or an interface may come later.
+  const bool may_come = service.serial_port || !plan.deployment->network.interfaces.empty();
+  text += std::string("RestartPreventExitStatus=") + (may_come ? "3\n" : "2 3\n");
   return text;
 }
 
@@ -65,7 +65,6 @@ std::string network_lines(const ExportPlan& plan, const ExportedService& service
 }
 
 constexpr const char* hardening =
-    "DynamicUser=yes\n"
     "UMask=0077\n"
     "CapabilityBoundingSet=\n"
     "AmbientCapabilities=\n"
@@ -93,50 +92,36 @@ constexpr const char* hardening =
     "SystemCallErrorNumber=EPERM\n"
     "DevicePolicy=closed\n";
 
-/// The section [Unit], to which more lines may be added.
-std::string unit_section(const ExportPlan& plan, const std::string& what) {
-  std::string text = head(plan) + "[Unit]\nDescription=Quoin " + plan.deployment->name_space +
-                     ": " + what + "\nPartOf=" + plan.id + ".target\n";
+UnitFile unit(const ExportPlan& plan, const ExportedService& service,
+              const std::filesystem::path& programs) {
+  std::string text = head(plan);
+  text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + service.label + " (" +
+          service.kind + ")\n";
+  text += "PartOf=" + plan.id + ".target\n";
   if (!plan.deployment->network.interfaces.empty()) {
     text += "Wants=network-online.target\nAfter=network-online.target\n";
   }
-  return text + "StartLimitIntervalSec=0\n";
-}
-
-std::string environment_line(const ExportPlan& plan) {
-  return "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
-         plan.id + "\n";
-}
-
-/// Ends at once, in order, on a host that has the address of none of the servers.
-UnitFile discovery_unit(const ExportPlan& plan, const std::filesystem::path& programs) {
-  std::string text = unit_section(plan, "discovery servers");
-  text += "\n[Service]\nType=exec\nExecStart=" + unit_program((programs / "quoin").string()) +
-          " discovery " + unit_argument(plan.file.string()) + "\n" + environment_line(plan);
-  text += "Restart=on-failure\nRestartPreventExitStatus=2\n";
-  // Until those who knew it have forgotten the server that died.
-  text +=
-      "RestartSec=" + std::to_string(discovery_pause(plan.deployment->network).count()) + "ms\n";
-  text += "TimeoutStopSec=10s\n\n";
-  text += hardening + device_lines({}) + network_lines(plan, {});
-  return {unit_name(plan, discovery_id), text};
-}
-
-UnitFile unit(const ExportPlan& plan, const ExportedService& service,
-              const std::filesystem::path& programs) {
-  std::string text = unit_section(plan, service.label + " (" + service.config->kind + ")");
   // Started behind those who read its output and stopped before them.
   for (const std::string& id : service.after) text += "After=" + unit_name(plan, id) + "\n";
+  text += "StartLimitIntervalSec=0\n";
 
-  text +=
-      "\n[Service]\nType=notify\nExecStart=" + unit_program((programs / service.program).string()) +
-      " --deployment " + unit_argument(plan.file.string()) + " --service " +
-      unit_argument(service.label) + "\n";
-  text += environment_line(plan);
-  text += restart_lines(service);
+  text += std::string("\n[Service]\nType=") + (service.is_service() ? "notify" : "exec") +
+          "\nExecStart=" + unit_program((programs / service.program).string());
+  for (const std::string& argument : service.arguments(plan.file)) {
+    text += " " + unit_argument(argument);
+  }
+  text += "\n";
+  text += "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
+          plan.id + "\n";
+  text += restart_lines(plan, service);
   // A lookup of a device's host name alone may take ten seconds.
-  text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  if (service.is_service()) {
+    text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  }
   text += "TimeoutStartSec=30s\nTimeoutStopSec=10s\n\n";
+  // Keys are for one user's eyes only, and a dynamic user has another number at each start.
+  text += plan.deployment->security ? std::string("User=") + user_with_keys + "\n"
+                                    : "DynamicUser=yes\n";
   text += hardening;
   text += device_lines(service);
   text += network_lines(plan, service);
@@ -147,7 +132,6 @@ UnitFile unit(const ExportPlan& plan, const ExportedService& service,
 
 std::vector<UnitFile> systemd_units(const ExportPlan& plan, const std::filesystem::path& programs) {
   std::vector<UnitFile> units{target(plan)};
-  if (has_discovery_servers(plan)) units.push_back(discovery_unit(plan, programs));
   for (const ExportedService& service : plan.services) {
     units.push_back(unit(plan, service, programs));
   }

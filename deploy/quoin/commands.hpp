@@ -27,6 +27,7 @@ struct Command {
 }
 
 [[nodiscard]] Command add_up(CLI::App& app);
+[[nodiscard]] Command add_apply(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);
 [[nodiscard]] Command add_status(CLI::App& app);
@@ -40,6 +41,7 @@ struct Command {
 [[nodiscard]] Command add_set(CLI::App& app);
 [[nodiscard]] Command add_discovery(CLI::App& app);
 [[nodiscard]] Command add_doctor(CLI::App& app);
+[[nodiscard]] Command add_keys(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

@@ -15,6 +15,7 @@
 #include "deploy/comparison/comparison_report.hpp"
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/scan_join.hpp"
@@ -108,7 +109,7 @@ class Listener {
       : options_(options),
         deployment_(deployment),
         selection_(selection),
-        participant_(runtime::participant_config(deployment, "quoin_compare")),
+        participant_(runtime::participant_config(deployment, "quoin_compare", observer_identity)),
         comparison_(names(selection), selection.reference, options.gate, options.scans),
         display_(options.json ? Display::Mode::errors : Display::Mode::automatic) {
     for (const ServiceConfig* service : selection.services) {

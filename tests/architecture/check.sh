@@ -42,6 +42,7 @@ deny deploy/evaluation 'deploy/(deployment|quoin|supervision)/|idl/|services/' \
   "the evaluation needs no DDS and no deployment"
 deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
 deny deploy/doctor 'idl/|services/|deploy/quoin/' "the doctor is told what was heard on the network"
+deny deploy/keys 'idl/|services/|yaml-cpp' "what makes keys needs no DDS"
 deny deploy/methods 'idl/|services/' "what describes methods needs no DDS"
 deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
 for stage in segmentation line_fitting corner_estimation; do

@@ -14,7 +14,7 @@ case "${1-}" in
   --json) format=json ;;
   *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
 esac
-for program in extraction_benchmark chain_benchmark side_by_side_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark; do
+for program in extraction_benchmark chain_benchmark side_by_side_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark; do
   if [[ ! -x $bin/$program ]]; then
     echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
     exit 2
@@ -34,4 +34,6 @@ if [[ $format == table ]]; then
   "$bin/rplidar_bridge_benchmark"
   echo "standby: 50 kills of the strong instance at 10 Hz, lease 100 ms" >&2
   "$bin/standby_benchmark"
+  echo "security: three rounds of 10 s without, signed and encrypted, at 10 Hz" >&2
+  "$bin/security_benchmark"
 fi
