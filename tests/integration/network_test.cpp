@@ -123,8 +123,7 @@ class Robot {
   /// The process that `quoin up` of `host` has started for the discovery server there.
   [[nodiscard]] pid_t discovery_server(const std::string& host) const {
     using std::string_literals::operator""s;
-    const std::string command = "discovery\0"s + deployment_.file().string();
-    for (const pid_t process : tests::processes_naming(command)) {
+    for (const pid_t process : tests::processes_naming("quoin\0discovery\0"s)) {
       if (parent_of(process) == ups_.at(host)->pid()) return process;
     }
     return 0;
