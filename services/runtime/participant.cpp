@@ -44,7 +44,8 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment, const
                                      std::string_view identity) {
   const std::string keys = identity.empty() ? name : std::string(identity);
   deploy::require_keys(deployment, {keys});
-  return {deployment.domain, deployment.name_space + "/" + name, deployment.network,
+  return {deployment.domain,   deployment.name_space + "/" + name,
+          deployment.network,  std::nullopt,
           deployment.security, keys};
 }
 
