@@ -5,8 +5,8 @@
 #include <arpa/inet.h>
 #include <charconv>
 
-#include "core/methods/parameter.hpp"
 #include "core/methods/suggestion.hpp"
+#include "deploy/deployment/parameter_entries.hpp"
 
 namespace quoin::deploy {
 
@@ -84,27 +84,6 @@ std::vector<ServerAddress> read_servers(const Entry& entry, Problems& problems) 
   return servers;
 }
 
-/// Of which a network has one, so that times are written as elsewhere.
-struct Lease {
-  double lease = network_lease;
-
-  static constexpr auto fields() {
-    return std::make_tuple(field(&Lease::lease, "lease", "s", 0.5, 600.0,
-                                 "until a participant is forgotten that is not heard of"));
-  }
-};
-
-double read_lease(const Entry& entry, Problems& problems) {
-  const auto text = read_text(entry, problems);
-  if (!text) return network_lease;
-  try {
-    return make_parameters<Lease>({{"lease", *text}}).lease;
-  } catch (const ParameterError& error) {
-    problems.add(entry.value_at, std::string("the lease: ") + error.what());
-    return network_lease;
-  }
-}
-
 Discovery discovery_of(const std::string& name) {
   if (name == "multicast") return Discovery::multicast;
   return name == "server" ? Discovery::server : Discovery::peers;
@@ -134,7 +113,7 @@ NetworkConfig read_network(const Entry& entry, Problems& problems) {
       servers = element;
       network.servers = read_servers(element, problems);
     } else if (element.key == "lease") {
-      lease = read_lease(element, problems);
+      lease = read_seconds(element, "the lease", 0.5, 600.0, problems);
     } else {
       problems.add(element.key_at, "unknown key '" + element.key + "' of the network" +
                                        suggestion(element.key, {"interfaces", "discovery", "peers",

@@ -3,9 +3,7 @@
 #include <chrono>
 #include <fstream>
 #include <optional>
-#include <tuple>
 
-#include "core/methods/parameter.hpp"
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
@@ -24,15 +22,6 @@ constexpr std::size_t most_services = 256;
 constexpr std::size_t longest_name = 64;
 constexpr int highest_domain = 232;
 constexpr int highest_strength = 1'000'000;
-
-/// How long an instance with a strength may be silent.
-struct Lease {
-  double seconds = 0.1;  // [s]
-
-  static constexpr auto fields() {
-    return std::tuple{field(&Lease::seconds, "lease", "s", 0.02, 60.0, "silence of the dead")};
-  }
-};
 
 class Reader {
  public:
@@ -203,18 +192,13 @@ class Reader {
   }
 
   void read_lease(const Entry& entry, DraftService& draft) {
-    const auto text = read_text(entry, problems_);
-    if (!text) return;
     if (!draft.config.strength) {
       problems_.add(entry.key_at, "a lease without a strength; add strength: NUMBER");
       return;
     }
-    try {
-      const double seconds = make_parameters<Lease>({{"lease", *text}}).seconds;
+    if (const auto seconds = read_seconds(entry, "the lease", 0.02, 60.0, problems_)) {
       draft.config.lease =
-          std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
-    } catch (const ParameterError& error) {
-      problems_.add(entry.value_at, std::string("the lease ") + error.what());
+          std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(*seconds));
     }
   }
 
@@ -319,6 +303,10 @@ Deployment parse_deployment(const std::string& text, const std::filesystem::path
 }
 
 Deployment load_deployment(const std::filesystem::path& file) {
+  return parse_deployment(read_deployment(file), file);
+}
+
+std::string read_deployment(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -334,7 +322,7 @@ Deployment load_deployment(const std::filesystem::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) fail(file, "cannot be read");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_deployment(text, file);
+  return text;
 }
 
 }  // namespace quoin::deploy

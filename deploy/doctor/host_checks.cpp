@@ -77,12 +77,15 @@ Check check_interface(const NamedInterface& interface, bool multicast,
 Check check_socket_buffers(const fs::path& folder, std::uint64_t wanted) {
   const std::string name = "socket buffers";
   std::vector<std::string> small, settings;
+  bool known = false;
   for (const char* limit : {"rmem_max", "wmem_max"}) {
     const auto bytes = read_number(folder / limit, std::dec);
+    known = known || bytes;
     if (!bytes || *bytes >= wanted) continue;
     small.push_back(std::string("net.core.") + limit + " is " + std::to_string(*bytes));
     settings.push_back(std::string("net.core.") + limit + "=" + std::to_string(wanted));
   }
+  if (!known) return {name, Verdict::good, "not told in this container; see the host", ""};
   if (small.empty()) return {name, Verdict::good, "as large as wanted", ""};
   std::string advice = "sysctl -w";
   for (const std::string& setting : settings) advice += " " + setting;

@@ -42,7 +42,7 @@ std::string project_name(const ExportPlan& plan) {
 }
 
 std::string restart_policy(const ExportedService& service) {
-  if (service.config->restart == RestartPolicy::never) return "\"no\"";
+  if (service.restart == RestartPolicy::never) return "\"no\"";
   return service.may_finish ? "on-failure" : "unless-stopped";
 }
 
@@ -56,14 +56,13 @@ std::string device_lines(const ExportedService& service, const ComposeOptions& o
 
 std::string service_lines(const ExportPlan& plan, const ExportedService& service,
                           const ComposeOptions& options) {
-  const std::string file =
-      (std::filesystem::path(deployment_folder) / plan.file.filename()).string();
+  const auto file = std::filesystem::path(deployment_folder) / plan.file.filename();
   std::string text = "  " + yaml_text(service.id) + ":\n";
   text += "    image: " + yaml_text(options.image) + "\n";
   text += "    command:\n";
-  for (const std::string& word : {service.program, std::string("--deployment"), file,
-                                  std::string("--service"), service.label}) {
-    text += "      - " + yaml_text(word) + "\n";
+  text += "      - " + yaml_text(service.program) + "\n";
+  for (const std::string& argument : service.arguments(file)) {
+    text += "      - " + yaml_text(argument) + "\n";
   }
   text +=
       "    network_mode: host\n"
@@ -71,7 +70,8 @@ std::string service_lines(const ExportPlan& plan, const ExportedService& service
       "    restart: " +
       restart_policy(service) +
       "\n"
-      "    user: \"65534:65534\"\n"
+      // Nobody, unless another one is to read the keys.
+      "    user: \"${QUOIN_USER:-65534:65534}\"\n"
       "    read_only: true\n"
       "    cap_drop:\n      - ALL\n"
       "    security_opt:\n      - no-new-privileges:true\n"
@@ -82,6 +82,14 @@ std::string service_lines(const ExportPlan& plan, const ExportedService& service
       "        source: " +
       yaml_text(plan.file.parent_path().string()) + "\n        target: " + deployment_folder +
       "\n        read_only: true\n";
+  if (plan.deployment->security) {
+    const std::string keys =
+        yaml_text(std::filesystem::absolute(plan.deployment->security->directory)
+                      .lexically_normal()
+                      .string());
+    text += "      - type: bind\n        source: " + keys + "\n        target: " + keys +
+            "\n        read_only: true\n";
+  }
   text += device_lines(service, options);
   if (service.after.empty()) return text;
   text += "    depends_on:\n";

@@ -3,9 +3,7 @@
 #include "deploy/export/export_plan.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "core/methods/suggestion.hpp"
 #include "deploy/deployment/kinds.hpp"
 #include "sensor_bridge/rplidar/parameters.hpp"
 #include "sensor_bridge/rplidar/transport/endpoint.hpp"
@@ -14,25 +12,6 @@ namespace quoin::deploy {
 
 namespace {
 
-void check_host(const Deployment& deployment, const std::string& host) {
-  std::vector<std::string> hosts;
-  for (const ServiceConfig& service : deployment.services) {
-    if (service.host == host) return;
-    if (std::ranges::find(hosts, service.host) == hosts.end()) hosts.push_back(service.host);
-  }
-  const std::string file = deployment.file.string();
-  if (host.empty()) {
-    std::string names;
-    for (const std::string& name : hosts) names += (names.empty() ? "" : ", ") + name;
-    throw std::out_of_range(file + ": the services run on several hosts; name one with --host (" +
-                            names + ")");
-  }
-  if (hosts == std::vector<std::string>{""}) {
-    throw std::out_of_range(file + ": no service has a host; leave --host out");
-  }
-  throw std::out_of_range(file + ": no service on host '" + host + "'" + suggestion(host, hosts));
-}
-
 /// Names of services have no '-' in them.
 std::string id_of(const ServiceConfig& service) {
   std::string id = label(service);
@@ -40,12 +19,11 @@ std::string id_of(const ServiceConfig& service) {
   return id;
 }
 
-void look_at_device(ExportedService& service) {
+void look_at_device(const ServiceConfig& config, ExportedService& service) {
   using namespace sensor_bridge::rplidar;
-  if (service.config->kind == "rplidar_emulator") service.own_network = true;
-  if (service.config->kind != "rplidar") return;
-  const std::string port =
-      make_parameters<RplidarParameters>(service.config->parameters).serial_port;
+  if (config.kind == "rplidar_emulator") service.own_network = true;
+  if (config.kind != "rplidar") return;
+  const std::string port = make_parameters<RplidarParameters>(config.parameters).serial_port;
   if (port == "auto" || parse_endpoint(port).kind == Endpoint::Kind::serial) {
     service.serial_port = port;
   } else {
@@ -55,13 +33,26 @@ void look_at_device(ExportedService& service) {
 
 }  // namespace
 
-ExportPlan plan_export(const Deployment& deployment, const std::string& host) {
-  check_host(deployment, host);
+std::vector<std::string> ExportedService::arguments(const std::filesystem::path& file) const {
+  if (!is_service()) return {"discovery", file.string()};
+  return {"--deployment", file.string(), "--service", label};
+}
+
+ExportPlan plan_export(const Deployment& deployment, const std::string& host,
+                       bool discovery_servers) {
   ExportPlan plan;
   plan.deployment = &deployment;
   plan.file = std::filesystem::absolute(deployment.file).lexically_normal();
   plan.id = "quoin-" + deployment.name_space;
   std::ranges::replace(plan.id, '/', '-');
+  if (discovery_servers) {
+    ExportedService servers;
+    servers.label = "discovery";
+    servers.id = "discovery-server";  // no service is called like this
+    servers.kind = "discovery";
+    servers.program = "quoin";
+    plan.services.push_back(servers);
+  }
   std::vector<std::string> devices;
   for (const ServiceConfig& service : deployment.services) {
     if (service.host == host && find_kind(service.kind)->output == MessageType::none) {
@@ -72,10 +63,12 @@ ExportPlan plan_export(const Deployment& deployment, const std::string& host) {
     if (service.host != host) continue;
     const KindInfo& kind = *find_kind(service.kind);
     ExportedService exported;
-    exported.config = &service;
+    exported.kind = service.kind;
+    exported.restart = service.restart;
     exported.label = label(service);
     exported.id = id_of(service);
     exported.program = kind.program;
+    if (discovery_servers) exported.after.emplace_back("discovery-server");
     for (const ServiceConfig* reader : deployment.readers_of(service.name)) {
       if (reader->host == host) exported.after.push_back(id_of(*reader));
     }
@@ -83,7 +76,7 @@ ExportPlan plan_export(const Deployment& deployment, const std::string& host) {
       exported.after.insert(exported.after.end(), devices.begin(), devices.end());
       exported.may_finish = service.kind != "rplidar";
     }
-    look_at_device(exported);
+    look_at_device(service, exported);
     plan.services.push_back(std::move(exported));
   }
   return plan;

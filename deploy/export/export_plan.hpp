@@ -11,12 +11,13 @@
 
 namespace quoin::deploy {
 
-/// A service as another supervisor has to run it.
+/// A service as another supervisor has to run it, or the discovery servers of a host.
 struct ExportedService {
-  const ServiceConfig* config = nullptr;
   std::string label;    ///< of the service in the deployment file
   std::string id;       ///< the same for names of units and containers
+  std::string kind;     ///< of the service; "discovery" for the servers
   std::string program;  ///< file name of the executable
+  RestartPolicy restart = RestartPolicy::always;
   /// Those that have to be there first, by id: who reads the output, and for sources what stands in
   /// for their device. Stopped in the opposite order, nothing in flight is lost.
   std::vector<std::string> after;
@@ -25,6 +26,10 @@ struct ExportedService {
   std::optional<std::string> serial_port;
   /// Speaks to addresses that the deployment's network does not name.
   bool own_network = false;
+
+  [[nodiscard]] bool is_service() const { return kind != "discovery"; }
+  /// Of the program, when the deployment's file is at `file`.
+  [[nodiscard]] std::vector<std::string> arguments(const std::filesystem::path& file) const;
 };
 
 /// The part of a deployment that runs on one host.
@@ -35,8 +40,9 @@ struct ExportPlan {
   std::vector<ExportedService> services;
 };
 
-/// `host`: "" for a deployment that names no hosts. Throws std::out_of_range when the host fits
-/// not.
-[[nodiscard]] ExportPlan plan_export(const Deployment& deployment, const std::string& host);
+/// The share of `host`, "" for a deployment that names no hosts; with its discovery servers, if
+/// there are any. Throws sensor_bridge::rplidar::EndpointError for a device that is none.
+[[nodiscard]] ExportPlan plan_export(const Deployment& deployment, const std::string& host,
+                                     bool discovery_servers = false);
 
 }  // namespace quoin::deploy

@@ -29,13 +29,14 @@ UnitFile target(const ExportPlan& plan) {
 }
 
 /// What `quoin up` does, as far as systemd can. Its pauses do not grow before version 254.
-std::string restart_lines(const ExportedService& service) {
-  if (service.config->restart == RestartPolicy::never) return "Restart=no\n";
+std::string restart_lines(const ExportPlan& plan, const ExportedService& service) {
+  if (service.restart == RestartPolicy::never) return "Restart=no\n";
   // A source that has published everything is done.
   std::string text = service.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
   text += "RestartSec=1s\n";
-  // 2: a wrong configuration, 3: an unusable input. A device may be plugged in later.
-  if (!service.serial_port) text += "RestartPreventExitStatus=2 3\n";
+  // 2: a wrong configuration, 3: an unusable input. But a device or an interface may come later.
+  const bool may_come = service.serial_port || !plan.deployment->network.interfaces.empty();
+  text += std::string("RestartPreventExitStatus=") + (may_come ? "3\n" : "2 3\n");
   return text;
 }
 
@@ -64,7 +65,6 @@ std::string network_lines(const ExportPlan& plan, const ExportedService& service
 }
 
 constexpr const char* hardening =
-    "DynamicUser=yes\n"
     "UMask=0077\n"
     "CapabilityBoundingSet=\n"
     "AmbientCapabilities=\n"
@@ -96,7 +96,7 @@ UnitFile unit(const ExportPlan& plan, const ExportedService& service,
               const std::filesystem::path& programs) {
   std::string text = head(plan);
   text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + service.label + " (" +
-          service.config->kind + ")\n";
+          service.kind + ")\n";
   text += "PartOf=" + plan.id + ".target\n";
   if (!plan.deployment->network.interfaces.empty()) {
     text += "Wants=network-online.target\nAfter=network-online.target\n";
@@ -105,16 +105,23 @@ UnitFile unit(const ExportPlan& plan, const ExportedService& service,
   for (const std::string& id : service.after) text += "After=" + unit_name(plan, id) + "\n";
   text += "StartLimitIntervalSec=0\n";
 
-  text +=
-      "\n[Service]\nType=notify\nExecStart=" + unit_program((programs / service.program).string()) +
-      " --deployment " + unit_argument(plan.file.string()) + " --service " +
-      unit_argument(service.label) + "\n";
+  text += std::string("\n[Service]\nType=") + (service.is_service() ? "notify" : "exec") +
+          "\nExecStart=" + unit_program((programs / service.program).string());
+  for (const std::string& argument : service.arguments(plan.file)) {
+    text += " " + unit_argument(argument);
+  }
+  text += "\n";
   text += "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
           plan.id + "\n";
-  text += restart_lines(service);
+  text += restart_lines(plan, service);
   // A lookup of a device's host name alone may take ten seconds.
-  text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  if (service.is_service()) {
+    text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  }
   text += "TimeoutStartSec=30s\nTimeoutStopSec=10s\n\n";
+  // Keys are for one user's eyes only, and a dynamic user has another number at each start.
+  text += plan.deployment->security ? std::string("User=") + user_with_keys + "\n"
+                                    : "DynamicUser=yes\n";
   text += hardening;
   text += device_lines(service);
   text += network_lines(plan, service);

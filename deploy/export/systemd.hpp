@@ -10,6 +10,9 @@
 
 namespace quoin::deploy {
 
+/// Whom the services of a deployment with `security:` run as; has to be made, and given the keys.
+inline constexpr const char* user_with_keys = "quoin";
+
 struct UnitFile {
   std::string name;
   std::string text;

@@ -43,8 +43,9 @@ TopicRule rule_of(const Deployment& deployment, const std::string& identity) {
     rule.reads = all_outputs(deployment);
     rule.reads.push_back(status);
     if (identity == observer_identity) return rule;
-    rule.reads.push_back(reply);
-    rule.writes = {request};
+    // quoin up asks services, and is asked itself.
+    rule.reads.insert(rule.reads.end(), {request, reply});
+    rule.writes = {request, reply};
     return rule;
   }
   const ServiceConfig& service = deployment.service(identity);

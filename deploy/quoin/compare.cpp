@@ -18,6 +18,7 @@
 #include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
+#include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "deploy/report/table.hpp"
 #include "services/runtime/participant.hpp"

@@ -15,6 +15,7 @@
 #include "deploy/export/systemd.hpp"
 #include "deploy/export/visibility.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 
 namespace quoin::deploy {
@@ -69,9 +70,25 @@ void tell_of_remains(const std::filesystem::path& folder, const std::string& ste
   }
 }
 
+/// Addresses tell where discovery servers run: they are exported on their hosts.
+bool serves_here(const Deployment& deployment) {
+  if (deployment.network.discovery != Discovery::server) return false;
+  try {
+    if (serves_discovery(deployment)) return true;
+  } catch (const std::runtime_error&) {
+    // This machine has none of the deployment's interfaces.
+  }
+  std::cerr << "this machine has the address of no discovery server; export on those that do\n";
+  return false;
+}
+
+ExportPlan plan_of(const Deployment& deployment, const ExportOptions& options) {
+  return plan_export(deployment, host_to_run(deployment, options.host), serves_here(deployment));
+}
+
 int export_systemd(const ExportOptions& options) {
   const Deployment deployment = load_deployment(options.file);
-  const ExportPlan plan = plan_export(deployment, options.host);
+  const ExportPlan plan = plan_of(deployment, options);
   const std::filesystem::path programs =
       options.programs.empty() ? program_folder() : std::filesystem::path(options.programs);
   std::vector<UnitFile> units;
@@ -93,6 +110,11 @@ int export_systemd(const ExportOptions& options) {
     std::cerr << "the units cannot start like this: " << obstacle
               << "; install below /usr/local and /etc, for instance\n";
   }
+  if (deployment.security) {
+    std::cerr << "keys are read by one user only: useradd --system " << user_with_keys
+              << ", and chown -R " << user_with_keys << " "
+              << deployment.security->directory.string() << '\n';
+  }
   std::cerr << "to start: copy them to /etc/systemd/system, systemctl daemon-reload, systemctl "
                "enable --now "
             << units.front().name << '\n';
@@ -101,7 +123,7 @@ int export_systemd(const ExportOptions& options) {
 
 int export_compose(const ExportOptions& options) {
   const Deployment deployment = load_deployment(options.file);
-  const ExportPlan plan = plan_export(deployment, options.host);
+  const ExportPlan plan = plan_of(deployment, options);
   if (!may_write({options.output}, options.force)) return exit_failure;
   write_whole(options.output, compose_file(plan, options.compose));
   std::cout << options.output << '\n';
@@ -109,6 +131,10 @@ int export_compose(const ExportOptions& options) {
     if (service.serial_port != "auto") continue;
     std::cerr << "service '" << service.label << "' finds its serial port by itself; its container"
               << " is given " << options.compose.serial_port << " (--serial-port)\n";
+  }
+  if (deployment.security) {
+    std::cerr
+        << "keys are read by one user only: QUOIN_USER=UID:GID is whom the containers run as\n";
   }
   std::cerr << "to start: docker compose -f " << options.output << " up --detach\n";
   return exit_ok;

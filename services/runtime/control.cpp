@@ -19,7 +19,7 @@ constexpr std::size_t most_parameters = 64;
 
 bool oversized(const msg::ControlRequest& request) {
   return request.requester().size() > longest_text || request.method().size() > longest_text ||
-         request.parameters().size() > most_parameters ||
+         request.file().size() > longest_text || request.parameters().size() > most_parameters ||
          std::any_of(request.parameters().begin(), request.parameters().end(),
                      [](const msg::ParameterSetting& setting) {
                        return setting.name().size() > longest_text ||
@@ -58,6 +58,14 @@ ControlServer::~ControlServer() {
   wait_set_.wake();
   receiver_.join();
   worker_.join();
+  // The answer to a request that ended the process must not go with it.
+  writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
+}
+
+// Two processes have the same name while one takes over from the other.
+bool ControlServer::for_this_process(const msg::ControlRequest& request) const {
+  return request.incarnation() == 0 ? !service_.succession.held()
+                                    : request.incarnation() == service_.heartbeat.incarnation();
 }
 
 void ControlServer::receive() {
@@ -65,6 +73,7 @@ void ControlServer::receive() {
   while (!ending_) {
     wait_set_.wait(std::chrono::seconds(1));
     while (!ending_ && reader_.take(request)) {
+      if (!for_this_process(request)) continue;
       if (request.service() == label(service_.config)) {
         accept(request);
       } else if (request.service() == service_.config.name) {
@@ -93,7 +102,8 @@ void ControlServer::accept(const msg::ControlRequest& request) {
       return;
     }
   }
-  refuse(request, std::to_string(most_waiting) + " requests are waiting; ask again later");
+  refuse(request,
+         "already " + std::to_string(most_waiting) + " requests are waiting; ask again later");
 }
 
 void ControlServer::begin_second() {
@@ -134,7 +144,7 @@ void ControlServer::work() {
 void ControlServer::handle(const msg::ControlRequest& request) {
   msg::ControlReply reply = reply_to(request);
   try {
-    handler_(request, reply);
+    carry_out(request, reply);
   } catch (const std::exception& error) {
     reply.accepted(false);
     reply.detail(error.what());
@@ -145,6 +155,17 @@ void ControlServer::handle(const msg::ControlRequest& request) {
               reply.accepted() ? "done" : "refused", reply.detail().empty() ? "" : ": ",
               reply.detail());
   answer(reply);
+}
+
+void ControlServer::carry_out(const msg::ControlRequest& request, msg::ControlReply& reply) {
+  if (service_.succession.handle(request, reply)) {
+    reply.accepted(true);
+  } else if (request.action() == msg::ControlAction::CONTROL_STOP) {
+    service_.stop.request();
+    reply.accepted(true);
+  } else {
+    handler_(request, reply);
+  }
 }
 
 void ControlServer::answer(const msg::ControlReply& reply) {

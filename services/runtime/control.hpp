@@ -23,7 +23,8 @@ namespace quoin::runtime {
 /// too many, requests are dropped and counted.
 class ControlServer {
  public:
-  /// Fills accepted, detail, method, parameters and first_sequence_number of the reply.
+  /// Answers what is not common to all services: fills accepted, detail, method, parameters and
+  /// first_sequence_number of the reply, or throws.
   using Handler = std::function<void(const msg::ControlRequest&, msg::ControlReply&)>;
 
   ControlServer(Service& service, Handler handler);
@@ -35,11 +36,13 @@ class ControlServer {
   using Clock = std::chrono::steady_clock;
 
   void receive();
+  [[nodiscard]] bool for_this_process(const msg::ControlRequest& request) const;
   void accept(const msg::ControlRequest& request);
   void begin_second();
   void refuse(const msg::ControlRequest& request, const std::string& why);
   void work();
   void handle(const msg::ControlRequest& request);
+  void carry_out(const msg::ControlRequest& request, msg::ControlReply& reply);
   void answer(const msg::ControlReply& reply);
 
   Service& service_;

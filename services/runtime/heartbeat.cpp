@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/heartbeat.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <unistd.h>
 #include <utility>
+
+#include <spdlog/spdlog.h>
 
 #include "services/runtime/clock.hpp"
 #include "services/runtime/interfaces.hpp"
@@ -35,6 +38,8 @@ std::string state_name(msg::ServiceState state) {
   switch (state) {
     case msg::STATE_STARTING:
       return "starting";
+    case msg::STATE_HELD:
+      return "held";
     case msg::STATE_ACTIVE:
       return "active";
     case msg::STATE_FINISHED:
@@ -90,6 +95,11 @@ void Heartbeat::set_detail(const std::string& detail) {
 void Heartbeat::set_method(const std::string& method) {
   const std::lock_guard lock(mutex_);
   status_.method(method);
+}
+
+void Heartbeat::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
 }
 
 void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
@@ -165,7 +175,13 @@ msg::ServiceStatus Heartbeat::snapshot() {
   status_.processing_p50(processing_.quantile(0.5));
   status_.processing_p99(processing_.quantile(0.99));
   status_.resident_memory(resident);
+  const std::vector<std::string> known_misfits = status_.incompatible_qos();
   if (endpoint_report_) endpoint_report_(status_);
+  for (const std::string& misfit : status_.incompatible_qos()) {
+    if (std::find(known_misfits.begin(), known_misfits.end(), misfit) == known_misfits.end()) {
+      spdlog::warn("QoS does not match: {}", misfit);
+    }
+  }
   return status_;
 }
 

@@ -44,6 +44,8 @@ class Heartbeat {
   void set_state(msg::ServiceState state, const std::string& detail = "");
   void set_detail(const std::string& detail);
   void set_method(const std::string& method);
+  /// Of a source that does not begin with scan 0.
+  void set_first_sequence_number(std::uint64_t number);
   /// Adds the entry of this name, or replaces its value.
   void set_diagnostic(const std::string& name, const std::string& value);
   /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_

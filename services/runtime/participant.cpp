@@ -44,9 +44,11 @@ ParticipantConfig participant_config(const deploy::Deployment& deployment, const
                                      std::string_view identity) {
   const std::string keys = identity.empty() ? name : std::string(identity);
   deploy::require_keys(deployment, {keys});
-  return {deployment.domain,   deployment.name_space + "/" + name,
-          deployment.network,  std::nullopt,
-          deployment.security, keys};
+  return {.domain = deployment.domain,
+          .name = deployment.name_space + "/" + name,
+          .network = deployment.network,
+          .security = deployment.security,
+          .identity = keys};
 }
 
 Participant::Participant(const ParticipantConfig& config)
@@ -59,6 +61,11 @@ Participant::Participant(const ParticipantConfig& config)
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
                                                    participant_qos(config, addresses),
                                                    impl_->endpoints.get(), dds::StatusMask::none());
+  if (impl_->participant == nullptr && config.server) {
+    const deploy::ServerAddress& server = config.network.servers.at(*config.server);
+    throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
+                             std::to_string(server.port) + "; does another process use that port?");
+  }
   if (impl_->participant == nullptr) {
     throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) + " on " +
                              addresses.front() + "; is that interface up, and are fewer than " +

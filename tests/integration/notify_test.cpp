@@ -6,6 +6,7 @@
 #include <idl/Segments.h>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -117,7 +118,7 @@ TEST(Notify, AStageWhoseMethodHangsIsNotReportedAlive) {
   scans.write(scan);
   EXPECT_TRUE(obstacle.wait_until_met());
   // Heartbeats come once a second, and say that the process as such is well.
-  const auto next_heartbeat = [&, last = std::int64_t{0}]() mutable {
+  auto next_heartbeat = [&, last = std::int64_t{0}]() mutable {
     return status.wait_for("walls", [&](const msg::ServiceStatus& heartbeat) {
       return heartbeat.stamp() > std::exchange(last, heartbeat.stamp()) && heartbeat.received() > 0;
     });

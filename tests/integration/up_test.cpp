@@ -125,8 +125,9 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
 std::vector<std::string> findings(const TestDeployment& deployment, const std::string& name) {
   Process doctor = deployment.quoin({"doctor", "FILE", "--json"});
   EXPECT_TRUE(doctor.wait(30s)) << doctor.errors();
+  const json report = json::parse(doctor.output());
   std::vector<std::string> texts;
-  for (const json& check : json::parse(doctor.output())["checks"]) {
+  for (const json& check : report["checks"]) {
     if (check["check"] != name || check["verdict"] == "ok") continue;
     EXPECT_NE(check["advice"], "");
     texts.push_back(check["text"]);
@@ -149,8 +150,9 @@ TEST(Status, TellsWhatRunsAndWhoDoesNotFitToWhom) {
   const std::string domain = std::to_string(deployment.deployment().domain);
   Process listing = deployment.quoin({"status", "--domain", domain, "--json"});
   ASSERT_TRUE(listing.wait(20s)) << listing.errors();
+  const json listed = json::parse(listing.output());
   json walls;
-  for (const json& service : json::parse(listing.output())["services"]) {
+  for (const json& service : listed["services"]) {
     const bool ours = service["namespace"] == deployment.deployment().name_space;
     if (ours && service["kind"] == "segmentation") walls = service;
   }

@@ -196,7 +196,7 @@ TEST_F(KeyDirectory, EveryIdentityMayDoItsPartAndNothingElse) {
                                          "robot/status"};
   EXPECT_EQ(rule_of(deployment_, "quoin-observer"), (TopicRule{7, {}, results}));
   const TopicRule rule = rule_of(deployment_, "quoin-operator");
-  EXPECT_THAT(rule.writes, ElementsAre("robot/control/request"));
+  EXPECT_THAT(rule.writes, ElementsAre("robot/control/request", "robot/control/reply"));
   EXPECT_EQ(rule.reads.back(), "robot/control/reply");
   EXPECT_THROW((void)rule_of(deployment_, "nobody"), std::out_of_range);
 

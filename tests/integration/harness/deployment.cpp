@@ -8,10 +8,15 @@
 namespace quoin::tests {
 
 TestDeployment::TestDeployment(const std::string& services, const std::string& head)
-    : file_(directory_.write("deployment.yaml", "version: 1\nnamespace: " + test_namespace() +
-                                                    "\ndomain: " + std::to_string(test_domain()) +
-                                                    "\n" + head + "services:\n" + services)),
+    : head_("version: 1\nnamespace: " + test_namespace() +
+            "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
+      file_(write("deployment.yaml", services)),
       deployment_(deploy::load_deployment(file_)) {}
+
+std::filesystem::path TestDeployment::write(const std::string& name,
+                                            const std::string& services) const {
+  return directory_.write(name, head_ + services);
+}
 
 Process TestDeployment::start(const std::string& service, int observers) const {
   const deploy::KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);

@@ -24,6 +24,10 @@ class TestDeployment {
   /// `services`: the text behind "services:", two spaces in. `head`: more lines before it.
   explicit TestDeployment(const std::string& services, const std::string& head = "");
 
+  /// Another deployment file for the same domain and namespace, in the same folder.
+  [[nodiscard]] std::filesystem::path write(const std::string& name,
+                                            const std::string& services) const;
+
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const TemporaryDirectory& directory() const { return directory_; }
   [[nodiscard]] const deploy::Deployment& deployment() const { return deployment_; }
@@ -41,6 +45,7 @@ class TestDeployment {
 
  private:
   TemporaryDirectory directory_;
+  std::string head_;
   std::filesystem::path file_;
   deploy::Deployment deployment_;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/harness/hosts.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -15,7 +16,9 @@
 #include <thread>
 #include <unistd.h>
 
+#include "services/runtime/interfaces.hpp"
 #include "tests/integration/harness/lossy_wire.hpp"
+#include "tests/integration/harness/process.hpp"
 
 namespace quoin::tests {
 
@@ -79,6 +82,12 @@ std::string path_of(const FileDescriptor& name_space) {
   return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(name_space.get());
 }
 
+bool all_have_a_link() {
+  const auto addresses = runtime::host_addresses();
+  return std::all_of(addresses.begin(), addresses.end(),
+                     [](const auto& address) { return address.running; });
+}
+
 bool kernel_impairs() {
   return exit_code_of({"tc", "qdisc", "add", "dev", "lo", "root", "netem"}, true) == 0;
 }
@@ -103,13 +112,20 @@ std::optional<std::string> Hosts::refusal(bool lossy) {
 
 Hosts::Hosts(std::vector<std::string> names, const std::string& lossy)
     : outside_(present_namespace()), switch_(make_namespace()), lossy_(lossy) {
-  run("ip link add name switch type bridge");
-  run("ip link add name aux_switch type bridge");
+  // Switches that snoop would send frames of their own.
+  run("ip link add name switch type bridge mcast_snooping 0");
+  run("ip link add name aux_switch type bridge mcast_snooping 0");
   run("ip link set switch up");
   run("ip link set aux_switch up");
   for (const std::string& name : names) hosts_[name] = make_namespace();
   home_ = names.back();
   for (std::size_t i = 0; i < names.size(); ++i) connect(names[i], i);
+  // The kernel takes note of a carrier a little later.
+  for (const std::string& name : names) {
+    if (!eventually([&] { return on(name, &all_have_a_link); })) {
+      throw std::runtime_error("no link on " + name);
+    }
+  }
 }
 
 Hosts::~Hosts() {
