@@ -44,7 +44,7 @@ class Reader {
       return;
     }
     deployment_.name_space = "quoin";
-    std::optional<Entry> version, services;
+    std::optional<Entry> version, services, security;
     // The preset for all must be known before the services are read, wherever it is written.
     for (const Entry& entry : entries_of(root, "the deployment", problems_)) {
       if (entry.key == "version") {
@@ -58,6 +58,7 @@ class Reader {
       } else if (entry.key == "network") {
         deployment_.network = read_network(entry, problems_);
       } else if (entry.key == "security") {
+        security = entry;
         deployment_.security = read_security(entry, deployment_.file.parent_path(), problems_);
       } else if (entry.key == "services") {
         services = entry;
@@ -67,6 +68,11 @@ class Reader {
                           suggestion(entry.key, {"version", "namespace", "domain", "qos", "network",
                                                  "security", "services"}));
       }
+    }
+    if (security && deployment_.network.discovery == Discovery::server) {
+      // With both, Fast DDS 2.9 ends the process; it has secure discovery servers from 2.10 on.
+      problems_.add(security->key_at,
+                    "security cannot be had with discovery: server; choose multicast or peers");
     }
     if (!version) {
       problems_.add(at, "missing key 'version'; write version: 1");

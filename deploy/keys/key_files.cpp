@@ -29,9 +29,6 @@ std::vector<std::string> identities_of(const Deployment& deployment) {
   for (const ServiceConfig& service : deployment.services) identities.push_back(label(service));
   identities.emplace_back(operator_identity);
   identities.emplace_back(observer_identity);
-  if (deployment.network.discovery == Discovery::server) {
-    identities.emplace_back(discovery_identity);
-  }
   return identities;
 }
 

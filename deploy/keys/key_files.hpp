@@ -12,9 +12,8 @@
 namespace quoin::deploy {
 
 /// Identities that are no services. No service can be called so: its name has no hyphen.
-inline constexpr std::string_view operator_identity = "quoin-operator";    ///< commands that change
-inline constexpr std::string_view observer_identity = "quoin-observer";    ///< commands that look
-inline constexpr std::string_view discovery_identity = "quoin-discovery";  ///< discovery servers
+inline constexpr std::string_view operator_identity = "quoin-operator";  ///< commands that change
+inline constexpr std::string_view observer_identity = "quoin-observer";  ///< commands that look
 
 /// Secret of the certificate authority: who has it can make identities. Stays where it was made.
 [[nodiscard]] std::filesystem::path authority_key(const std::filesystem::path& directory);
@@ -39,8 +38,7 @@ struct IdentityFiles {
 [[nodiscard]] std::filesystem::path identity_folder(const std::filesystem::path& directory,
                                                     std::string_view identity);
 
-/// Identities that the deployment needs: its services by label, the roles of the commands, and of
-/// the discovery server where there is one.
+/// Identities that the deployment needs: its services by label, and the roles of the commands.
 [[nodiscard]] std::vector<std::string> identities_of(const Deployment& deployment);
 
 }  // namespace quoin::deploy

@@ -39,7 +39,6 @@ TopicRule rule_of(const Deployment& deployment, const std::string& identity) {
   const std::string request = control_request_topic(deployment.name_space);
   const std::string reply = control_reply_topic(deployment.name_space);
   TopicRule rule{deployment.domain, {}, {}};
-  if (identity == discovery_identity) return rule;
   if (identity == operator_identity || identity == observer_identity) {
     rule.reads = all_outputs(deployment);
     rule.reads.push_back(status);

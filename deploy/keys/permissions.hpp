@@ -21,8 +21,8 @@ struct TopicRule {
 
 /// What `identity` may do in the deployment: a service writes its own output, heartbeats and
 /// replies, and reads its input and requests; the operator writes requests and reads everything;
-/// the observer reads results and heartbeats; a discovery server joins. Throws std::out_of_range
-/// when the deployment has no such service.
+/// the observer reads results and heartbeats. Throws std::out_of_range when the deployment has no
+/// such service.
 [[nodiscard]] TopicRule rule_of(const Deployment& deployment, const std::string& identity);
 
 /// The permissions document of DDS Security 1.1; everything else is denied.

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "deploy/deployment/deployment.hpp"
-#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "services/runtime/interfaces.hpp"
@@ -38,7 +37,7 @@ int run(const std::string& file) {
   std::deque<runtime::Participant> participants;
   for (const std::size_t index : servers) {
     const std::string name = "discovery_" + std::to_string(index);
-    auto config = runtime::participant_config(deployment, name, discovery_identity);
+    auto config = runtime::participant_config(deployment, name);
     config.server = index;
     participants.emplace_back(config);
     std::cerr << "discovery server at " << text_of(network.servers[index]) << std::endl;

@@ -75,7 +75,8 @@ void tell_what_to_copy(const KeyOptions& options, const Deployment& deployment) 
     std::cout << '\n';
   }
   std::cout << "and identities/" << operator_identity << " to where `quoin up`, swap and set run, "
-            << "identities/" << observer_identity << " to where status, echo and draw do\n";
+            << "identities/" << observer_identity
+            << " to where status, echo, draw, compare and doctor do\n";
 }
 
 int sign_permissions(const KeyOptions& options) {
@@ -147,7 +148,7 @@ Command add_keys(CLI::App& app) {
   CLI::Option* names = second->add_option(
       "names", options->names,
       "Services by name (NAME@STRENGTH where there are instances), quoin-operator (up, swap, set), "
-      "quoin-observer (status, echo, draw), quoin-discovery (discovery servers)");
+      "quoin-observer (status, echo, draw, compare, doctor)");
   second
       ->add_option("--deployment", options->file,
                    "Deployment file (YAML): all of its identities that are not there yet")

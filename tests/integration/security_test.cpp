@@ -120,12 +120,12 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   const int domain = deployment.deployment().domain;
   const deploy::TopicRule everything{domain, {name_space + "/*"}, {name_space + "/*"}};
   const auto other_keys = deployment.directory().path() / "other";
-  deploy::make_key_directory(other_keys, 1, false);
+  deploy::make_key_directory(other_keys, tests::days_of_keys, false);
   tests::add_keys(other_keys, "other_authority", {everything});
   tests::add_keys(deployment.keys(), "revoked", {everything});
   // Fast DDS looks up its own permissions without regard to the domain, but those of others with:
   // with rules for another domain this one passes its own checks and meets those of the services.
-  deployment.add(
+  tests::add_keys(
       deployment.keys(), "foreign_topic",
       {{domain, {"elsewhere"}, {"elsewhere"}}, {domain + 1, everything.writes, everything.reads}});
 
@@ -181,6 +181,15 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   }
   EXPECT_GT(recorder.messages().back().corners().size(), 0U);
   EXPECT_EQ(recorder.accounting().lost(), 0U);
+
+  // With permissions, the same gets through.
+  tests::add_keys(deployment.keys(), "guest", {everything});
+  Intruder guest(deployment, "guest", deployment.keys());
+  EXPECT_TRUE(tests::eventually([&] {
+    guest.act();
+    recorder.poll();
+    return guest.heard() > 0 && recorder.messages().back().header().sensor() == "guest";
+  }));
 }
 
 TEST(Security, TheOperatorChangesAndTheObserverLooks) {

@@ -198,7 +198,6 @@ TEST_F(KeyDirectory, EveryIdentityMayDoItsPartAndNothingElse) {
   const TopicRule rule = rule_of(deployment_, "quoin-operator");
   EXPECT_THAT(rule.writes, ElementsAre("robot/control/request", "robot/control/reply"));
   EXPECT_EQ(rule.reads.back(), "robot/control/reply");
-  EXPECT_EQ(rule_of(deployment_, "quoin-discovery"), (TopicRule{7, {}, {}}));
   EXPECT_THROW((void)rule_of(deployment_, "nobody"), std::out_of_range);
 
   const std::string text = verify_document(read_file(identity_files(keys_, "walls").permissions),
