@@ -44,6 +44,10 @@ std::vector<const ServiceConfig*> Deployment::readers_of(std::string_view name) 
   return readers;
 }
 
+std::chrono::milliseconds discovery_pause(const NetworkConfig& network) {
+  return std::chrono::milliseconds(static_cast<int>(network.lease * 1000.0) + 1000);
+}
+
 std::vector<std::string> hosts_of(const Deployment& deployment) {
   std::vector<std::string> hosts;
   for (const ServiceConfig& service : deployment.services) {
@@ -69,6 +73,8 @@ std::string status_topic(std::string_view name_space) {
 std::string control_request_topic(std::string_view name_space) {
   return std::string(name_space) + "/control/request";
 }
+
+std::string supervisor_name(std::string_view host) { return "@" + std::string(host); }
 
 std::string control_reply_topic(std::string_view name_space) {
   return std::string(name_space) + "/control/reply";

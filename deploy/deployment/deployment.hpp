@@ -130,13 +130,22 @@ class DeploymentError : public std::runtime_error {
 /// Reads and validates a deployment file. Throws DeploymentError with all that is wrong.
 [[nodiscard]] Deployment load_deployment(const std::filesystem::path& file);
 
-/// The same for text already in memory; `file` is what messages name.
+/// The text of a deployment file, not more of it than parse_deployment takes. Throws
+/// DeploymentError.
+[[nodiscard]] std::string read_deployment(const std::filesystem::path& file);
+
+/// The same as load_deployment for text already in memory; `file` is what messages name.
 [[nodiscard]] Deployment parse_deployment(const std::string& text,
                                           const std::filesystem::path& file);
 
 /// What `network:` with these entries would give. Throws DeploymentError, whose messages name no
 /// place.
 [[nodiscard]] NetworkConfig parse_network(const NetworkText& text);
+
+/// From the death of a discovery server to the next one at its address: when all have forgotten the
+/// dead one. A new server too soon would be taken for it, and not be told of those that it should
+/// know.
+[[nodiscard]] std::chrono::milliseconds discovery_pause(const NetworkConfig& network);
 
 /// The hosts that services name, each once, in the order of the services; none when all run on one.
 [[nodiscard]] std::vector<std::string> hosts_of(const Deployment& deployment);
@@ -147,5 +156,9 @@ class DeploymentError : public std::runtime_error {
 [[nodiscard]] std::string status_topic(std::string_view name_space);
 [[nodiscard]] std::string control_request_topic(std::string_view name_space);
 [[nodiscard]] std::string control_reply_topic(std::string_view name_space);
+
+/// What control requests to the supervisor of a host's share are addressed to; no service is called
+/// so.
+[[nodiscard]] std::string supervisor_name(std::string_view host);
 
 }  // namespace quoin::deploy

@@ -297,6 +297,10 @@ Deployment parse_deployment(const std::string& text, const std::filesystem::path
 }
 
 Deployment load_deployment(const std::filesystem::path& file) {
+  return parse_deployment(read_deployment(file), file);
+}
+
+std::string read_deployment(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -312,7 +316,7 @@ Deployment load_deployment(const std::filesystem::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) fail(file, "cannot be read");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_deployment(text, file);
+  return text;
 }
 
 }  // namespace quoin::deploy

@@ -27,17 +27,21 @@ struct Command {
 }
 
 [[nodiscard]] Command add_up(CLI::App& app);
+[[nodiscard]] Command add_apply(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);
 [[nodiscard]] Command add_status(CLI::App& app);
 [[nodiscard]] Command add_echo(CLI::App& app);
+[[nodiscard]] Command add_compare(CLI::App& app);
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
+[[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
 [[nodiscard]] Command add_set(CLI::App& app);
 [[nodiscard]] Command add_discovery(CLI::App& app);
 [[nodiscard]] Command add_doctor(CLI::App& app);
+[[nodiscard]] Command add_keys(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 
 }  // namespace quoin::deploy

@@ -10,6 +10,7 @@
 
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/message_json.hpp"
 #include "deploy/quoin/message_text.hpp"
@@ -34,7 +35,8 @@ struct EchoOptions {
 template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
-  runtime::Participant participant(runtime::participant_config(deployment, "quoin_echo"));
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_echo", observer_identity));
   const std::string topic = output_topic(deployment, service);
   runtime::Reader<T> reader(participant, topic, runtime::onlooker_qos(service));
   runtime::WaitSet wait_set;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "deploy/keys/key_files.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace quoin::deploy {
@@ -17,7 +18,8 @@ constexpr std::size_t most_namespaces = 64;
 
 HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::string& name,
                                      bool all_namespaces)
-    : all_namespaces_(all_namespaces), participant_(runtime::participant_config(deployment, name)) {
+    : all_namespaces_(all_namespaces),
+      participant_(runtime::participant_config(deployment, name, observer_identity)) {
   if (!all_namespaces) add(deployment.name_space);
 }
 

@@ -3,7 +3,6 @@
 #include "deploy/quoin/launch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -13,6 +12,8 @@
 #include <unistd.h>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_check.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "services/runtime/interfaces.hpp"
 
 namespace quoin::deploy {
@@ -21,30 +22,39 @@ std::filesystem::path program_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
+bool serves_discovery(const Deployment& deployment) {
+  const NetworkConfig& network = deployment.network;
+  if (network.discovery != Discovery::server) return false;
+  const auto addresses = runtime::resolve_interfaces(network.interfaces, runtime::host_addresses());
+  return !runtime::servers_here(network, addresses).empty();
+}
+
 namespace {
 
 /// Nothing when no server of the deployment is on this host.
-std::optional<ProcessPlan> discovery_plan(const Deployment& deployment) {
-  const NetworkConfig& network = deployment.network;
-  if (network.discovery != Discovery::server) return std::nullopt;
-  const auto addresses = runtime::resolve_interfaces(network.interfaces, runtime::host_addresses());
-  if (runtime::servers_here(network, addresses).empty()) return std::nullopt;
+std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
+                                          const std::filesystem::path& file) {
+  if (!serves_discovery(deployment)) return std::nullopt;
   ProcessPlan plan;
   plan.name = discovery_process;
   plan.program = program_folder() / "quoin";
-  plan.arguments = {"discovery", std::filesystem::absolute(deployment.file).string()};
+  plan.arguments = {"discovery", std::filesystem::absolute(file).string()};
   plan.level = std::numeric_limits<int>::max();  // others are found until the end
-  // A new server at the same address would be taken for the one that died, and not be told of
-  // those that it should know, until they have forgotten that one.
-  plan.least_pause = std::chrono::milliseconds(static_cast<int>(network.lease * 1000.0) + 1000);
+  plan.least_pause = discovery_pause(network);
   return plan;
 }
 
 }  // namespace
 
 std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::string& host,
-                                       const std::function<int(const ServiceConfig&)>& observers) {
+                                       const std::function<int(const ServiceConfig&)>& observers,
+                                       const std::filesystem::path& copy) {
   const std::filesystem::path folder = program_folder();
+  std::vector<std::string> identities{std::string(operator_identity)};
+  for (const ServiceConfig& service : deployment.services) {
+    if (service.host == host) identities.push_back(label(service));
+  }
+  require_keys(deployment, identities);
   std::map<std::string, int> levels;
   std::vector<ProcessPlan> plans;
   std::vector<std::size_t> behind;
@@ -61,8 +71,13 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
       throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
                                service.name + "' of kind " + service.kind + " needs it");
     }
-    plan.arguments = {"--deployment", std::filesystem::absolute(deployment.file).string(),
-                      "--service", plan.name};
+    const std::string file = std::filesystem::absolute(deployment.file).string();
+    plan.arguments = {"--service", plan.name, "--deployment"};
+    if (copy.empty()) {
+      plan.arguments.push_back(file);
+    } else {
+      plan.arguments.insert(plan.arguments.end(), {copy.string(), "--deployment-name", file});
+    }
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }
@@ -76,7 +91,8 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
   }
   // What publishes nothing is there for the others, and stops when they have.
   for (const std::size_t index : behind) plans[index].level = last_level + 1;
-  if (auto discovery = discovery_plan(deployment)) plans.push_back(std::move(*discovery));
+  if (auto discovery = discovery_plan(deployment, copy.empty() ? deployment.file : copy))
+    plans.push_back(std::move(*discovery));
   return plans;
 }
 

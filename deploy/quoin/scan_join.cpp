@@ -9,6 +9,7 @@
 
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 
 namespace quoin::deploy {
 
@@ -38,7 +39,7 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
                    std::optional<std::uint64_t> scan)
     : chain_(chain),
       scan_(scan),
-      participant_(runtime::participant_config(deployment, "quoin_draw")),
+      participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
       segments_(participant_, output_topic(deployment, *chain.segmentation),
                 runtime::onlooker_qos(*chain.segmentation)),
       lines_(participant_, output_topic(deployment, *chain.line_fitting),

@@ -114,6 +114,7 @@ void print_json(const std::vector<Row>& rows) {
       object["age_s"] = row.figures.age;
       object["matched_inputs"] = status.matched_inputs();
       object["matched_outputs"] = status.matched_outputs();
+      object["control_dropped"] = status.control_dropped();
       object["incompatible_qos"] = status.incompatible_qos();
       auto diagnostics = nlohmann::ordered_json::object();
       for (const msg::Diagnostic& diagnostic : status.diagnostics()) {

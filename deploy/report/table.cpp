@@ -12,11 +12,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-std::string milliseconds_pair(double first, double second) {
-  if (first <= 0.0 && second <= 0.0) return "-";
-  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
-}
-
 std::string kind_and_method(const ServiceFigures& service) {
   return service.method.empty() ? service.kind : service.kind + "/" + service.method;
 }
@@ -27,7 +22,7 @@ Row service_row(const ServiceFigures& service) {
           std::to_string(report.received), std::to_string(report.published),
           std::to_string(report.lost),
           // A source's results are the scans themselves.
-          report.received == 0 ? "-" : milliseconds_pair(report.latency_p50, report.latency_p99),
+          report.received == 0 ? "-" : milli_pair(report.latency_p50, report.latency_p99),
           fixed(static_cast<double>(report.resident_memory) / (1024.0 * 1024.0), 1),
           std::to_string(service.restarts)};
 }
@@ -59,6 +54,11 @@ void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t wi
     }
     lines.push_back(line.substr(0, width));
   }
+}
+
+std::string milli_pair(double first, double second) {
+  if (first <= 0.0 && second <= 0.0) return "-";
+  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
 }
 
 std::string fixed(double value, int digits) {

@@ -13,6 +13,9 @@ namespace quoin::deploy {
 /// `value` with `digits` digits behind the point.
 [[nodiscard]] std::string fixed(double value, int digits);
 
+/// Two times or lengths in milliseconds or millimetres, "0.48 / 0.80"; "-" when there are none.
+[[nodiscard]] std::string milli_pair(double first, double second);
+
 /// Appends `rows` as lines of at most `width` characters, columns as wide as their widest cell; the
 /// first `left` columns are aligned to the left. All rows have as many cells as the first.
 void append_table(const std::vector<std::vector<std::string>>& rows, std::size_t left,

@@ -62,9 +62,19 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
   return losses;
 }
 
+// Whether the source is the same process as before, or one that took over from it: a restarted one
+// begins again with scan 0.
+bool ScanAccounting::continues_numbers(const msg::Header& header) const {
+  const msg::StageTrace& source = header.trace()[0];
+  if (source.incarnation() == previous_->stages[0].incarnation) return true;
+  return header.sequence_number() >= source.index() &&
+         header.sequence_number() - source.index() > previous_->sequence_number;
+}
+
 // The usual case: the next result of every stage.
 bool ScanAccounting::follows(const msg::Header& header) const {
   return header.sequence_number() == previous_->sequence_number + 1 &&
+         header.sensor() == previous_->sensor &&
          std::equal(header.trace().begin(), header.trace().end(), previous_->stages.begin(),
                     previous_->stages.end(),
                     [](const msg::StageTrace& now, const StagePosition& then) {
@@ -75,6 +85,7 @@ bool ScanAccounting::follows(const msg::Header& header) const {
 
 void ScanAccounting::remember(const msg::Header& header) {
   if (!previous_) previous_ = Previous{};
+  previous_->sensor = header.sensor();
   previous_->sequence_number = header.sequence_number();
   previous_->stages.resize(header.trace().size());
   for (std::size_t i = 0; i < header.trace().size(); ++i) {
@@ -92,14 +103,14 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   if (header.trace().empty()) return losses;  // not from a stage of this project
   if (!previous_) {
     first_sequence_ = header.sequence_number();
-  } else if (!follows(header)) {
-    const bool same_source = previous_->stages[0].incarnation == header.trace()[0].incarnation();
+  } else if (header.sensor() == previous_->sensor && !follows(header)) {
+    const bool same_source = continues_numbers(header);
     if (same_source && header.sequence_number() <= previous_->sequence_number) {
       ++duplicates_;
       last_was_duplicate_ = true;
       return losses;
     }
-    if (!took_over(header, 0)) losses = losses_before(header, same_source);
+    if (same_source || !took_over(header, 0)) losses = losses_before(header, same_source);
     for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
   }
   ++received_;

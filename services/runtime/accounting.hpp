@@ -24,15 +24,18 @@ struct Loss {
 /// (StageTrace.index), so the difference of two headers says how many results each stage made of
 /// the scans in between: the first stage that made fewer than its predecessor lost the others.
 ///
-/// Exact as long as the stages live. When one is restarted, or another instance of it takes over,
-/// scans between the last result of the one and the first of the other are put to its account. When
-/// another instance of a source takes over, which numbers scans of its own, nothing is counted as
-/// lost: of what the two saw nobody can say whether it was the same.
+/// Exact as long as the stages live. When one is restarted, or another takes its place or takes
+/// over from it, scans missing between the last result of the one and the first of the other are
+/// put to its account. When another instance of a source takes over, which numbers scans of its
+/// own, nothing is counted as lost: of what the two saw nobody can say whether it was the same.
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
-  /// the first message are not lost: nobody was listening.
+  /// the first message of a sensor are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
+
+  /// From here to the next message nobody listens: nothing in between is lost.
+  void interrupt() { previous_.reset(); }
 
   /// Losses behind the last message, when the source is known to have numbered `scans` scans.
   std::vector<Loss> finish(std::uint64_t scans);
@@ -58,11 +61,13 @@ class ScanAccounting {
     std::int64_t published = 0;  // [ns since the Unix epoch]
   };
   struct Previous {
+    std::string sensor;
     std::uint64_t sequence_number = 0;
     std::vector<StagePosition> stages;
   };
   struct Made;
 
+  [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
   [[nodiscard]] bool took_over(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] bool follows(const msg::Header& header) const;
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <unistd.h>
 #include <utility>
@@ -33,6 +34,24 @@ double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(
 
 }  // namespace
 
+std::string state_name(msg::ServiceState state) {
+  switch (state) {
+    case msg::STATE_STARTING:
+      return "starting";
+    case msg::STATE_HELD:
+      return "held";
+    case msg::STATE_ACTIVE:
+      return "active";
+    case msg::STATE_FINISHED:
+      return "finished";
+    case msg::STATE_STOPPED:
+      return "stopped";
+    case msg::STATE_FAILED:
+      return "failed";
+  }
+  return "unknown";
+}
+
 Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deployment,
                      const deploy::ServiceConfig& config)
     : incarnation_(static_cast<std::uint64_t>(now_ns())),
@@ -58,11 +77,14 @@ Heartbeat::~Heartbeat() {
 }
 
 void Heartbeat::set_state(msg::ServiceState state, const std::string& detail) {
-  const std::lock_guard lock(mutex_);
-  status_.state(state);
-  status_.detail(detail);
-  changed_state_ = true;
-  changed_.notify_all();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state(state);
+    status_.detail(detail);
+    changed_state_ = true;
+    changed_.notify_all();
+  }
+  if (state == msg::ServiceState::STATE_ACTIVE) supervisor_.ready();
 }
 
 void Heartbeat::set_detail(const std::string& detail) {
@@ -73,6 +95,11 @@ void Heartbeat::set_detail(const std::string& detail) {
 void Heartbeat::set_method(const std::string& method) {
   const std::lock_guard lock(mutex_);
   status_.method(method);
+}
+
+void Heartbeat::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
 }
 
 void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
@@ -104,6 +131,11 @@ void Heartbeat::count_received(std::uint64_t upstream_lost, std::uint64_t link_l
 void Heartbeat::count_loss(LossCause cause) {
   const std::lock_guard lock(mutex_);
   ++losses_[static_cast<std::size_t>(cause)];
+}
+
+void Heartbeat::count_control_drop() {
+  const std::lock_guard lock(mutex_);
+  ++status_.control_dropped();
 }
 
 void Heartbeat::count_published(std::int64_t scan_published, std::int64_t received,
@@ -161,11 +193,27 @@ void Heartbeat::run() {
     }
     {
       const std::lock_guard lock(write_mutex_);
-      writer_.write(snapshot());
+      const msg::ServiceStatus status = snapshot();
+      writer_.write(status);
+      tell_supervisor(status);
     }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });
   }
+}
+
+void Heartbeat::tell_supervisor(const msg::ServiceStatus& status) {
+  std::string text = state_name(status.state());
+  if (!status.detail().empty()) text += ": " + status.detail();
+  // The service manager writes each of these down.
+  if (text == told_ && seconds(told_at_, status.stamp()) < 10.0) return;
+  told_ = text;
+  told_at_ = status.stamp();
+  std::array<char, 96> counts{};
+  std::snprintf(counts.data(), counts.size(), "; %.1f Hz, %llu published, %llu lost", status.rate(),
+                static_cast<unsigned long long>(status.published()),
+                static_cast<unsigned long long>(status.lost()));
+  supervisor_.status(text + counts.data());
 }
 
 void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
@@ -176,8 +224,11 @@ void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
     ending_ = true;
     changed_.notify_all();
   }
+  supervisor_.stopping();
   const std::lock_guard lock(write_mutex_);
-  writer_.write(snapshot());
+  const msg::ServiceStatus status = snapshot();
+  writer_.write(status);
+  tell_supervisor(status);
   writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
 }
 

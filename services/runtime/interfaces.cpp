@@ -96,10 +96,10 @@ std::vector<std::string> resolve_interfaces(const std::vector<std::string>& inte
   if (interfaces.empty()) return {"127.0.0.1"};
   const std::vector<InterfaceAddress> named = named_interfaces(interfaces, host);
   if (named.empty()) {
-    throw deploy::DeploymentError(
-        {"this host has none of the interfaces " + joined(interfaces) + "; it has " +
-         (host.empty() ? "no IPv4 address" : text_of(host)) +
-         "; correct 'interfaces' of the network, or give this host an address there"});
+    // Not an error of the file: it may be right for others, and here a little later.
+    throw std::runtime_error("this host has none of the interfaces " + joined(interfaces) +
+                             "; it has " + (host.empty() ? "no IPv4 address" : text_of(host)) +
+                             "; correct 'interfaces' of the network, or give it an address there");
   }
   std::vector<std::string> addresses;
   for (const InterfaceAddress& candidate : named) {

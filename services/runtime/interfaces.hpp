@@ -31,8 +31,8 @@ inline constexpr std::uint32_t socket_buffer_bytes = 4U << 20U;
     const std::vector<std::string>& interfaces, const std::vector<InterfaceAddress>& host);
 
 /// The addresses among `host` that one of `interfaces` (names, addresses, networks) stands for, in
-/// the order of `host`; 127.0.0.1 when `interfaces` is empty. Throws deploy::DeploymentError, with
-/// what the host has, when there is none, and std::runtime_error when none of them has a link.
+/// the order of `host`; 127.0.0.1 when `interfaces` is empty. Throws std::runtime_error, with what
+/// the host has, when there is none, or none of them has a link.
 [[nodiscard]] std::vector<std::string> resolve_interfaces(
     const std::vector<std::string>& interfaces, const std::vector<InterfaceAddress>& host);
 

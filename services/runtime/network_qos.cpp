@@ -115,6 +115,18 @@ Duration_t duration(double seconds) {
                     static_cast<std::uint32_t>((seconds - whole) * 1e9));
 }
 
+void set_announcements(rtps::DiscoverySettings& discovery, const deploy::NetworkConfig& network) {
+  // To peers they go to every port that a participant may have, which is much for a radio link.
+  const bool costly = network.discovery == deploy::Discovery::peers && !network.interfaces.empty();
+  discovery.leaseDuration = duration(network.lease);
+  discovery.leaseDuration_announcementperiod =
+      duration(costly ? network.lease / 5.0 : std::min(1.0, network.lease / 4.0));
+  // New participants are announced often at first, because one lost announcement would otherwise
+  // delay the start by a whole period.
+  discovery.initial_announcements.count = costly ? 4 : 10;
+  discovery.initial_announcements.period = Duration_t(0, costly ? 100'000'000 : 50'000'000);
+}
+
 }  // namespace
 
 dds::DomainParticipantQos network_qos(const ParticipantConfig& config,
@@ -131,13 +143,7 @@ dds::DomainParticipantQos network_qos(const ParticipantConfig& config,
   set_discovery(builtin, config, addresses);
   if (config.server) become_server(qos.wire_protocol(), config, addresses);
 
-  // New participants are announced often at first, because one lost announcement would otherwise
-  // delay the start by a whole period.
-  auto& discovery = builtin.discovery_config;
-  discovery.leaseDuration = duration(config.network.lease);
-  discovery.leaseDuration_announcementperiod = duration(std::min(1.0, config.network.lease / 4));
-  discovery.initial_announcements.count = 10;
-  discovery.initial_announcements.period = Duration_t(0, 50'000'000);
+  set_announcements(builtin.discovery_config, config.network);
   return qos;
 }
 

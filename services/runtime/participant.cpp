@@ -9,9 +9,11 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "deploy/keys/key_check.hpp"
 #include "services/runtime/interfaces.hpp"
 #include "services/runtime/network_qos_impl.hpp"
 #include "services/runtime/participant_impl.hpp"
+#include "services/runtime/security.hpp"
 
 namespace quoin::runtime {
 
@@ -32,24 +34,38 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
                                           const std::vector<std::string>& addresses) {
   dds::DomainParticipantQos qos = network_qos(config, addresses);
   qos.name(config.name);
+  if (config.security) add_security(*config.security, config.identity, qos);
   return qos;
 }
 
 }  // namespace
 
-ParticipantConfig participant_config(const deploy::Deployment& deployment,
-                                     const std::string& name) {
-  return {deployment.domain, deployment.name_space + "/" + name, deployment.network};
+ParticipantConfig participant_config(const deploy::Deployment& deployment, const std::string& name,
+                                     std::string_view identity) {
+  const std::string keys = identity.empty() ? name : std::string(identity);
+  deploy::require_keys(deployment, {keys});
+  return {.domain = deployment.domain,
+          .name = deployment.name_space + "/" + name,
+          .network = deployment.network,
+          .security = deployment.security,
+          .identity = keys};
 }
 
 Participant::Participant(const ParticipantConfig& config)
-    : impl_(std::make_unique<Impl>(config.name)) {
+    : impl_(std::make_unique<Impl>(
+          config.security ? watch_security(*config.security, config.identity, config.name)
+                          : std::make_unique<KnownEndpoints>(config.name))) {
   disable_intraprocess_delivery();
   const auto addresses = resolve_interfaces(config.network.interfaces, host_addresses());
   auto* factory = dds::DomainParticipantFactory::get_instance();
   impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
                                                    participant_qos(config, addresses),
-                                                   &impl_->endpoints, dds::StatusMask::none());
+                                                   impl_->endpoints.get(), dds::StatusMask::none());
+  if (impl_->participant == nullptr && config.server) {
+    const deploy::ServerAddress& server = config.network.servers.at(*config.server);
+    throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
+                             std::to_string(server.port) + "; does another process use that port?");
+  }
   if (impl_->participant == nullptr) {
     throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) + " on " +
                              addresses.front() + "; is that interface up, and are fewer than " +
@@ -69,7 +85,7 @@ Participant::~Participant() {
 }
 
 std::vector<std::string> Participant::written_topics() const {
-  return impl_->endpoints.written_topics();
+  return impl_->endpoints->written_topics();
 }
 
 dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSupport& type) {

@@ -19,11 +19,16 @@ struct ParticipantConfig {
   deploy::NetworkConfig network = {};
   /// It is this one of the network's discovery servers.
   std::optional<std::size_t> server = std::nullopt;
+  std::optional<deploy::SecurityConfig> security = {};
+  std::string identity = {};  ///< whose keys it has, with security
 };
 
-/// Of a participant that takes part in `deployment` as <namespace>/`name`.
+/// Of a participant that takes part in `deployment` as <namespace>/`name`, where security is on
+/// with the keys of `identity`, or of `name` where that is "". Throws DeploymentError when they do
+/// not let it.
 [[nodiscard]] ParticipantConfig participant_config(const deploy::Deployment& deployment,
-                                                   const std::string& name);
+                                                   const std::string& name,
+                                                   std::string_view identity = "");
 
 /// A DDS participant that speaks UDP on the interfaces of its network alone (127.0.0.1 when that
 /// names none), sends multicast only for Discovery::multicast, and leaves no shared-memory file.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -18,9 +19,9 @@
 namespace quoin::runtime {
 
 struct Participant::Impl {
-  explicit Impl(const std::string& name) : endpoints(name) {}
+  explicit Impl(std::unique_ptr<KnownEndpoints> others) : endpoints(std::move(others)) {}
 
-  KnownEndpoints endpoints;  // outlives the participant, which calls it
+  std::unique_ptr<KnownEndpoints> endpoints;  // outlives the participant, which calls it
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;

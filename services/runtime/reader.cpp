@@ -46,8 +46,8 @@ bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds t
 }
 
 std::vector<std::string> ReaderBase::incompatible_qos() const {
-  return impl_->participant.impl().endpoints.misfits_of_reader(impl_->topic_name,
-                                                               policies_of(*impl_->reader));
+  return impl_->participant.impl().endpoints->misfits_of_reader(impl_->topic_name,
+                                                                policies_of(*impl_->reader));
 }
 
 bool ReaderBase::take_raw(void* sample) {

@@ -50,8 +50,8 @@ bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
 }
 
 std::vector<std::string> WriterBase::incompatible_qos() const {
-  return impl_->participant.impl().endpoints.misfits_of_writer(impl_->topic_name,
-                                                               policies_of(*impl_->writer));
+  return impl_->participant.impl().endpoints->misfits_of_writer(impl_->topic_name,
+                                                                policies_of(*impl_->writer));
 }
 
 void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }

@@ -16,6 +16,7 @@
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/integration/harness/hosts.hpp"
+#include "tests/integration/harness/leftovers.hpp"
 
 namespace quoin {
 namespace {
@@ -262,18 +263,24 @@ TEST_F(Network, ALosslessWriterGoesOnWhenTheLeaseOfAReaderThatWasCutHasEnded) {
 TEST_F(Network, UpStartsTheShareOfOneHostAndSaysWhichThereAre) {
   const Hosts hosts({"base"});
   const TestDeployment deployment(chain, "network: {interfaces: eth7}\n");
-  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"up", "FILE"}, "is for the hosts lidar, compute, base"},
-      {{"up", "FILE", "--host", "bass"}, "no host 'bass'; did you mean 'base'?"},
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string text;
+  };
+  const std::vector<Wrong> all_wrong = {
+      {{"up", "FILE"}, 2, "is for the hosts lidar, compute, base"},
+      {{"up", "FILE", "--host", "bass"}, 2, "no host 'bass'; did you mean 'base'?"},
       {{"up", "FILE", "--host", "base"},
+       1,
        "none of the interfaces eth7; it has lo (127.0.0.1), eth0 (10.77.0.1), aux0 (10.78.0.1)"},
-      {{"discovery", "FILE"}, "none of the interfaces eth7"},
-      {{"status", "--interface", "eth0", "--discovery", "server"}, "needs servers"},
-      {{"status", "--peer", "10.77.0.300"}, "must be an IPv4 address"}};
-  for (const auto& [arguments, text] : wrong) {
-    Process quoin = deployment.quoin(arguments);
-    EXPECT_EQ(quoin.wait(20s), 2) << text;
-    EXPECT_THAT(quoin.errors(), testing::HasSubstr(text));
+      {{"discovery", "FILE"}, 1, "none of the interfaces eth7"},
+      {{"status", "--interface", "eth0", "--discovery", "server"}, 2, "needs servers"},
+      {{"status", "--peer", "10.77.0.300"}, 2, "must be an IPv4 address"}};
+  for (const Wrong& wrong : all_wrong) {
+    Process quoin = deployment.quoin(wrong.arguments);
+    EXPECT_EQ(quoin.wait(20s), wrong.exit_code) << wrong.text;
+    EXPECT_THAT(quoin.errors(), testing::HasSubstr(wrong.text));
   }
 }
 

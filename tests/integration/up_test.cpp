@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/integration/harness/leftovers.hpp"
 
 namespace quoin {
 namespace {
@@ -23,6 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using tests::Process;
 using tests::processes_naming;
+using tests::shared_memory_files;
 using tests::StatusRecorder;
 using tests::TestDeployment;
 
@@ -32,14 +34,6 @@ std::string chain(const std::string& source_parameters) {
          "  - {name: walls, kind: segmentation, input: front, method: iepf}\n"
          "  - {name: wctls, kind: line_fitting, input: walls, method: wctls}\n"
          "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n";
-}
-
-std::set<std::string> shared_memory_files() {
-  std::set<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
-    files.insert(entry.path().filename());
-  }
-  return files;
 }
 
 TEST(Up, RunsAFiniteSourceToItsEndAndSumsUp) {

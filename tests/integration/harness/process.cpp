@@ -88,17 +88,6 @@ std::optional<int> Process::wait(std::chrono::milliseconds timeout) {
 std::string Process::output() const { return read_file(output_file_); }
 std::string Process::errors() const { return read_file(error_file_); }
 
-std::set<pid_t> processes_naming(const std::string& text) {
-  std::set<pid_t> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    if (read_file(entry.path() / "cmdline").find(text) == std::string::npos) continue;
-    found.insert(static_cast<pid_t>(std::stol(name)));
-  }
-  return found;
-}
-
 TemporaryDirectory::TemporaryDirectory() {
   std::string name = (std::filesystem::temp_directory_path() / "quoin_test_XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -35,9 +34,6 @@ class Process {
   std::filesystem::path output_file_;
   std::filesystem::path error_file_;
 };
-
-/// Processes whose command line, arguments with a null character between them, has `text` in it.
-[[nodiscard]] std::set<pid_t> processes_naming(const std::string& text);
 
 /// Folder that is removed with all it holds.
 class TemporaryDirectory {

@@ -34,9 +34,19 @@ class Pipeline {
   }
 
   void restart(std::size_t stage) {
+    take_over(stage);
+    if (stage == 0) next_ = 0;
+  }
+
+  /// Another process goes on where the present one of that stage ends.
+  void take_over(std::size_t stage) {
     ++stages_[stage].incarnation;
     stages_[stage].index = 0;
-    if (stage == 0) next_ = 0;
+  }
+
+  /// The scans come by way of another service, which has published `index` results already.
+  void rewire(std::size_t stage, const std::string& name, std::uint64_t index) {
+    stages_[stage] = {name, 1, index};
   }
 
  private:
@@ -128,6 +138,62 @@ TEST(ScanAccounting, ARestartedSourceStartsAnew) {
   EXPECT_EQ(losses[0].first_sequence, 0U);
   EXPECT_EQ(losses[0].last_sequence, 0U);
   EXPECT_EQ(accounting.received(), 21U);
+}
+
+TEST(ScanAccounting, AProcessThatTakesOverLosesNothing) {
+  for (std::size_t stage = 0; stage < 3; ++stage) {
+    SCOPED_TRACE(stage);
+    Pipeline pipeline;
+    ScanAccounting accounting;
+    for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+    pipeline.take_over(stage);
+    for (int i = 0; i < 20; ++i) EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+    EXPECT_EQ(accounting.received(), 40U);
+    EXPECT_EQ(accounting.duplicates(), 0U);
+  }
+}
+
+TEST(ScanAccounting, WhatIsMissingAroundATakeOverIsCounted) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  (void)pipeline.scan();
+  pipeline.take_over(0);
+  (void)pipeline.scan();
+  accounting.receive(pipeline.scan());
+  EXPECT_EQ(accounting.lost(), 2U);
+}
+
+TEST(ScanAccounting, AnInputThatIsRewiredLosesNothing) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  pipeline.rewire(1, "more_walls", 500);
+  pipeline.take_over(2);
+  EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+  (void)pipeline.scan(2);
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("wctls", 1)));
+}
+
+TEST(ScanAccounting, AnotherSensorBeginsAnew) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  msg::Header other = pipeline.scan();
+  other.sensor("rear");
+  other.sequence_number(7);
+  EXPECT_THAT(accounting.receive(other), IsEmpty());
+  EXPECT_EQ(accounting.received(), 21U);
+}
+
+TEST(ScanAccounting, NothingIsLostWhileNobodyListens) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  accounting.interrupt();
+  for (int i = 0; i < 5; ++i) (void)pipeline.scan();
+  EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
 }
 
 /// A header of a chain whose middle stage has two instances; all times in steps of a scan.
