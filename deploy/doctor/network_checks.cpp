@@ -51,7 +51,7 @@ Checks check_clocks(const std::vector<HeardProcess>& processes, const std::strin
 Checks check_doubles(const std::vector<HeardProcess>& processes) {
   std::map<std::string, std::vector<const HeardProcess*>> living;
   for (const HeardProcess& process : processes) {
-    if (process.heard > 0) living[process.service].push_back(&process);
+    if (process.active && process.heard > 0) living[process.service].push_back(&process);
   }
   Checks checks;
   for (const auto& [service, same] : living) {
@@ -66,7 +66,7 @@ Checks check_doubles(const std::vector<HeardProcess>& processes) {
   }
   if (checks.empty() && !living.empty()) {
     checks.push_back({"deployments", Verdict::good,
-                      std::to_string(living.size()) + " services run, each once", ""});
+                      std::to_string(living.size()) + " services are at work, each once", ""});
   }
   return checks;
 }

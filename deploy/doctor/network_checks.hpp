@@ -16,6 +16,7 @@ struct HeardProcess {
   std::string host;
   std::uint32_t process = 0;
   std::uint64_t incarnation = 0;
+  bool active = true;  ///< at work; not waiting to begin, or to take over
   /// Heartbeats that were sent while this one listened; a late reader gets an older one, too.
   std::size_t heard = 0;
   /// [ns] from the stamp of such a heartbeat, by the sender's clock, to its reception by this
@@ -29,7 +30,7 @@ struct HeardProcess {
 [[nodiscard]] Checks check_clocks(const std::vector<HeardProcess>& processes,
                                   const std::string& own_host);
 
-/// Whether two processes live under one label, which is what two deployments of one domain and
+/// Whether two processes are at work under one label, which is what two deployments of one domain and
 /// namespace do.
 [[nodiscard]] Checks check_doubles(const std::vector<HeardProcess>& processes);
 

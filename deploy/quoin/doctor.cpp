@@ -72,8 +72,8 @@ std::vector<HeardProcess> listen(const Deployment& deployment, bool all_namespac
     // One heartbeat is missed at least.
     if (ended || now - heard.last > std::chrono::milliseconds(1500)) continue;
     processes.push_back({key.first + "/" + status.service(), status.host(), status.pid(),
-                         status.incarnation(), heard.fresh, heard.delay,
-                         status.incompatible_qos()});
+                         status.incarnation(), status.state() == msg::STATE_ACTIVE, heard.fresh,
+                         heard.delay, status.incompatible_qos()});
   }
   return processes;
 }

@@ -222,6 +222,10 @@ TEST(DoctorNetwork, NoticesTwoDeploymentsOfOneName) {
       check_doubles({heard("r/front", "a", 3, 2, 0), heard("r/front", "b", 9, 1, 0)}),
       ElementsAre(is(Verdict::bad, "r/front runs more than once: process 3 on a and process 9 on b",
                      "another namespace or domain")));
+  HeardProcess held = heard("r/front", "a", 4, 2, 0);
+  held.active = false;
+  EXPECT_THAT(check_doubles({heard("r/front", "a", 3, 2, 0), held}),
+              ElementsAre(is(Verdict::good, "services are at work, each once", "")));
   EXPECT_THAT(check_doubles({}), IsEmpty());
 }
 
