@@ -75,6 +75,7 @@ $build_only && exit 0
 step "all tests but those of integration"
 ctest --test-dir build --output-on-failure -LE integration -j "$tests_at_once"
 
+in_background "soak" tests/soak/run.sh --minutes 3
 in_background "integration tests" ctest --test-dir build --output-on-failure -L integration -j "$tests_at_once"
 if $sanitizers; then
   step "build with sanitizers"
@@ -82,6 +83,7 @@ if $sanitizers; then
   nice cmake --build --preset asan -j "$jobs"  # gives way to what runs beside it
 fi
 finish "integration tests"
+finish "soak"
 
 if $sanitizers; then
   step "unit tests with sanitizers"

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +18,7 @@
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/integration/harness/hosts.hpp"
+#include "tests/integration/harness/keys.hpp"
 #include "tests/integration/harness/leftovers.hpp"
 
 namespace quoin {
@@ -51,10 +54,11 @@ pid_t parent_of(pid_t process) {
 /// A chain of services over three hosts, watched from the host `base`.
 class Robot {
  public:
-  explicit Robot(const std::string& head, const std::string& lossy = "")
+  explicit Robot(const std::string& head, const std::string& lossy = "",
+                 const std::string& services = chain)
       : hosts_({"lidar", "compute", "base"}, lossy),
-        deployment_(chain, head),
-        participant_(deployment_.participant("test")),
+        deployment_(services, head),
+        participant_(take_part()),
         status_(participant_, deployment_) {}
 
   [[nodiscard]] const Hosts& hosts() const { return hosts_; }
@@ -67,6 +71,16 @@ class Robot {
     ups_[host] = hosts_.on(host, [&] {
       return std::make_unique<Process>(deployment_.quoin({"up", "FILE", "--host", host, "--json"}));
     });
+  }
+
+  /// True once `service` runs as another process than that of `incarnation`.
+  [[nodiscard]] bool has_restarted(const std::string& service, std::uint64_t incarnation) {
+    return status_.wait_for(
+        service,
+        [&](const auto& status) {
+          return status.incarnation() != incarnation && status.state() == msg::STATE_ACTIVE;
+        },
+        40s);
   }
 
   [[nodiscard]] Process quoin(const std::string& host, std::vector<std::string> arguments) const {
@@ -106,18 +120,19 @@ class Robot {
   }
 
   /// Ends everything, the source first, and checks that each scan came out at the end or is counted
-  /// as lost; the figures of the corners.
+  /// as lost; the figures of the corner services.
   json stop_all() {
     const auto published = stop("lidar").value("scans_published", 0U);
     stop("compute");
     json base = stop("base");
-    const json corners = base["corners"]["corners"];
     EXPECT_GT(published, 0U);
     EXPECT_EQ(base["scans_published"], published);
-    EXPECT_EQ(corners["scans_delivered"].get<unsigned>() + corners["scans_lost"].get<unsigned>(),
-              published)
-        << corners;
-    return corners;
+    for (const auto& [name, corners] : base["corners"].items()) {
+      EXPECT_EQ(corners["scans_delivered"].get<unsigned>() + corners["scans_lost"].get<unsigned>(),
+                published)
+          << name << ": " << corners;
+    }
+    return base["corners"];
   }
 
   /// The process that `quoin up` of `host` has started for the discovery server there.
@@ -130,6 +145,12 @@ class Robot {
   }
 
  private:
+  [[nodiscard]] runtime::ParticipantConfig take_part() const {
+    if (!deployment_.deployment().security) return deployment_.participant("test");
+    tests::make_keys(deployment_);
+    return deployment_.participant(std::string(deploy::operator_identity));
+  }
+
   Hosts hosts_;
   TestDeployment deployment_;
   runtime::Participant participant_;
@@ -161,7 +182,7 @@ TEST_F(Network, MulticastStaysOnTheNamedInterfacesAndLosslessLosesNothingInACutO
   const json heard = json::parse(status.output(), nullptr, false);
   EXPECT_EQ(heard["services"].size(), 4U) << heard;
 
-  const json corners = robot.stop_all();
+  const json corners = robot.stop_all()["corners"];
   EXPECT_EQ(corners["scans_lost"], 0) << corners;
   for (const char* host : {"lidar", "compute", "base"}) {
     EXPECT_GT(robot.hosts().frames(host, "eth0"), 0U);
@@ -194,7 +215,7 @@ TEST_F(Network, WithPeersALateHostACutAndAPowerFailureAreCaughtUpWithAndEachScan
   ASSERT_TRUE(robot.has_published("corners", robot.latest("corners").published() + 40));
   EXPECT_NE(robot.latest("walls").incarnation(), walls);
 
-  const json corners = robot.stop_all();
+  const json corners = robot.stop_all()["corners"];
   EXPECT_GT(corners["lost_by_stage"]["start"], 0) << corners;
   EXPECT_GT(corners["lost_by_stage"]["walls"], scans_of_a_cut / 2) << corners;
 }
@@ -222,7 +243,7 @@ TEST_F(Network, OneOfTwoDiscoveryServersSuffices) {
   EXPECT_EQ(echo_again.wait(30s), 0) << echo_again.errors();
   ASSERT_EQ(kill(second, SIGCONT), 0);
 
-  EXPECT_EQ(robot.stop_all()["scans_lost"], 0);
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
 }
 
 TEST_F(Network, LosslessLosesNothingOnLinksThatLoseAndDelay) {
@@ -238,7 +259,52 @@ TEST_F(Network, LosslessLosesNothingOnLinksThatLoseAndDelay) {
         << loss << ", " << delay.count() << " ms";
   }
   robot.hosts().impair(0.0, 0ms);
-  EXPECT_EQ(robot.stop_all()["scans_lost"], 0);
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+}
+
+/// The deployment of an example, without what a test chooses itself: head and services.
+std::pair<std::string, std::string> example(const std::string& name) {
+  std::ifstream file(std::filesystem::path(QUOIN_EXAMPLES_DIR) / name);
+  std::string head;
+  std::string services;
+  std::string* part = &head;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("version:") || line.starts_with("namespace:")) continue;
+    if (line.starts_with("services:")) {
+      part = &services;
+    } else {
+      *part += line + "\n";
+    }
+  }
+  return {head, services};
+}
+
+TEST_F(Network, TheRobotOfTheExampleAccountsForEachScanThroughASwapAKillAndACut) {
+  const auto [head, services] = example("robot_network.yaml");
+  Robot robot(head, "", services);
+  for (const char* host : {"lidar", "compute", "base"}) robot.up(host);
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  ASSERT_TRUE(robot.has_published("beside_corners", 10));
+
+  Process swap = robot.quoin("base", {"swap", "beside", "utls", "--deployment", "FILE", "--json"});
+  EXPECT_EQ(swap.wait(20s), 0) << swap.errors();
+  EXPECT_EQ(json::parse(swap.output(), nullptr, false)["method"], "utls");
+
+  const auto strong = robot.latest("wctls@2").incarnation();
+  ASSERT_EQ(kill(static_cast<pid_t>(robot.latest("wctls@2").pid()), SIGKILL), 0);
+  ASSERT_TRUE(robot.has_published("corners", robot.latest("corners").published() + 10));
+  ASSERT_TRUE(robot.has_restarted("wctls@2", strong));
+
+  ASSERT_TRUE(robot.cut_for_five_seconds("compute"));
+  ASSERT_TRUE(robot.has_published("corners", robot.latest("front").published() + 10));
+  ASSERT_TRUE(robot.has_published("beside_corners", robot.latest("front").published() + 10));
+
+  const json figures = robot.stop_all();
+  std::cout << figures.dump() << '\n';  // what the README tells is from here
+  EXPECT_EQ(figures["beside_corners"]["scans_lost"], 0) << figures;
+  for (const auto& [stage, count] : figures["corners"]["lost_by_stage"].items()) {
+    EXPECT_EQ(stage, "wctls") << figures;
+  }
 }
 
 TEST_F(Network, ALosslessWriterGoesOnWhenTheLeaseOfAReaderThatWasCutHasEnded) {
