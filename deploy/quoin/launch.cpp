@@ -40,7 +40,7 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
   plan.program = program_folder() / "quoin";
   plan.arguments = {"discovery", std::filesystem::absolute(file).string()};
   plan.level = std::numeric_limits<int>::max();  // others are found until the end
-  plan.least_pause = discovery_pause(network);
+  plan.least_pause = discovery_pause(deployment.network);
   return plan;
 }
 
