@@ -4,6 +4,7 @@
 #
 # Installs what is missing, builds, and runs every test through CTest: the release build with everything,
 # then the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, and a short run of the fuzz targets.
+# The integration tests, which mostly wait, run beside the second build.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -33,22 +34,59 @@ step() { printf '\n== %s\n' "$*"; }
 jobs=$(nproc)
 tests_at_once=$((jobs + 1))  # some of them wait most of the time
 
+work=$(mktemp -d)
+declare -A background=()  # by name, the process group of each step that runs beside others
+end_background() {
+  local group
+  for group in "${background[@]}"; do kill -- "-$group" 2>/dev/null || true; done
+  rm -rf "$work"
+}
+trap end_background EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+# in_background NAME COMMAND...: starts a step of which `finish NAME` shows the output. A group of its own lets it be
+# ended with all that it has started.
+in_background() {
+  step "$1 (begins; its output follows below)"
+  setsid "${@:2}" >"$work/$1" 2>&1 </dev/null &
+  background[$1]=$!
+}
+
+# Waits for a step in the background, shows what it printed, and fails if it did.
+finish() {
+  local status=0
+  wait "${background[$1]}" || status=$?
+  unset "background[$1]"
+  step "$1 (ran beside the steps above)"
+  cat "$work/$1"
+  return "$status"
+}
+
 step "packages"
 deploy/install_packages.sh
-if $fuzzing && ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
+if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
 step "release build"
 cmake --preset release -DQUOIN_TESTS=ON -DQUOIN_BENCHMARKS=ON
 cmake --build --preset release -j "$jobs"
 $build_only && exit 0
 
-step "all tests"
-ctest --test-dir build --output-on-failure -j "$tests_at_once"
+step "all tests but those of integration"
+ctest --test-dir build --output-on-failure -LE integration -j "$tests_at_once"
+
+in_background "soak" tests/soak/run.sh --minutes 3
+in_background "integration tests" ctest --test-dir build --output-on-failure -L integration -j "$tests_at_once"
+if $sanitizers; then
+  step "build with sanitizers"
+  cmake --preset asan
+  nice cmake --build --preset asan -j "$jobs"  # gives way to what runs beside it
+fi
+finish "integration tests"
+finish "soak"
 
 if $sanitizers; then
   step "unit tests with sanitizers"
-  cmake --preset asan
-  cmake --build --preset asan -j "$jobs"
   UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$tests_at_once"
 fi
 

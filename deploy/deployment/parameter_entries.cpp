@@ -63,4 +63,22 @@ ParameterSettings read_parameters(const Entry& entry, const ServiceConfig& servi
   return settings;
 }
 
+std::optional<double> read_seconds(const Entry& entry, const std::string& what, double lowest,
+                                   double highest, Problems& problems) {
+  const auto text = read_text(entry, problems);
+  if (!text) return std::nullopt;
+  ParameterInfo info;
+  info.name = entry.key;
+  info.type = ParameterType::real;
+  info.unit = "s";
+  info.minimum = lowest;
+  info.maximum = highest;
+  try {
+    return detail::parse_real(info, *text);
+  } catch (const ParameterError& error) {
+    problems.add(entry.value_at, what + ": " + error.what());
+    return std::nullopt;
+  }
+}
+
 }  // namespace quoin::deploy

@@ -18,4 +18,10 @@ namespace quoin::deploy {
                                                 const std::vector<ParameterInfo>* known,
                                                 Problems& problems);
 
+/// A time [s] from `lowest` to `highest`, with or without unit; nothing, and a problem, when it is
+/// none. `what` names it in error texts.
+[[nodiscard]] std::optional<double> read_seconds(const Entry& entry, const std::string& what,
+                                                 double lowest, double highest,
+                                                 Problems& problems);
+
 }  // namespace quoin::deploy

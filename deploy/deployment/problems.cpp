@@ -24,8 +24,9 @@ void Problems::raise() const {
                          " more");
       break;
     }
-    messages.push_back(file_.string() + ":" + std::to_string(where.line) + ":" +
-                       std::to_string(where.column) + ": " + what);
+    const std::string place = file_.string() + ":" + std::to_string(where.line) + ":" +
+                              std::to_string(where.column) + ": ";
+    messages.push_back((file_.empty() ? "" : place) + what);
   }
   throw DeploymentError(std::move(messages));
 }

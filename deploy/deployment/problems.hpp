@@ -14,6 +14,7 @@ namespace quoin::deploy {
 /// Collects what is wrong with a file, so that its author sees everything at once.
 class Problems {
  public:
+  /// With "" for `file`, messages name no place.
   explicit Problems(std::filesystem::path file) : file_(std::move(file)) {}
 
   void add(Position where, std::string what) { problems_.emplace_back(where, std::move(what)); }

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
+#include <chrono>
 #include <fstream>
 #include <optional>
 
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/deployment/network_entries.hpp"
 #include "deploy/deployment/parameter_entries.hpp"
 #include "deploy/deployment/problems.hpp"
 #include "deploy/deployment/wiring.hpp"
@@ -20,10 +21,7 @@ constexpr std::size_t largest_file = 1U << 20U;  // [byte]
 constexpr std::size_t most_services = 256;
 constexpr std::size_t longest_name = 64;
 constexpr int highest_domain = 232;
-
-bool only_of(const std::string& text, const char* allowed) {
-  return text.find_first_not_of(allowed) == std::string::npos;
-}
+constexpr int highest_strength = 1'000'000;
 
 class Reader {
  public:
@@ -46,7 +44,7 @@ class Reader {
       return;
     }
     deployment_.name_space = "quoin";
-    std::optional<Entry> version, services;
+    std::optional<Entry> version, services, security;
     // The preset for all must be known before the services are read, wherever it is written.
     for (const Entry& entry : entries_of(root, "the deployment", problems_)) {
       if (entry.key == "version") {
@@ -56,14 +54,25 @@ class Reader {
       } else if (entry.key == "domain") {
         read_domain(entry);
       } else if (entry.key == "qos") {
-        qos_ = read_choice(entry, "QoS preset", qos_names());
+        qos_ = read_choice(entry, "QoS preset", qos_names(), problems_);
+      } else if (entry.key == "network") {
+        deployment_.network = read_network(entry, problems_);
+      } else if (entry.key == "security") {
+        security = entry;
+        deployment_.security = read_security(entry, deployment_.file.parent_path(), problems_);
       } else if (entry.key == "services") {
         services = entry;
       } else {
-        problems_.add(entry.key_at, "unknown key '" + entry.key + "' of the deployment" +
-                                        suggestion(entry.key, {"version", "namespace", "domain",
-                                                               "qos", "services"}));
+        problems_.add(entry.key_at,
+                      "unknown key '" + entry.key + "' of the deployment" +
+                          suggestion(entry.key, {"version", "namespace", "domain", "qos", "network",
+                                                 "security", "services"}));
       }
+    }
+    if (security && deployment_.network.discovery == Discovery::server) {
+      // With both, Fast DDS 2.9 ends the process; it has secure discovery servers from 2.10 on.
+      problems_.add(security->key_at,
+                    "security cannot be had with discovery: server; choose multicast or peers");
     }
     if (!version) {
       problems_.add(at, "missing key 'version'; write version: 1");
@@ -78,7 +87,7 @@ class Reader {
   }
 
   void read_namespace(const Entry& entry) {
-    const auto text = read_text(entry);
+    const auto text = read_text(entry, problems_);
     if (!text) return;
     constexpr auto allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_/";
     if (text->empty() || !only_of(*text, allowed) || text->front() == '/' || text->back() == '/' ||
@@ -92,17 +101,9 @@ class Reader {
   }
 
   void read_domain(const Entry& entry) {
-    const auto text = read_text(entry);
-    if (!text) return;
-    int domain = -1;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), domain);
-    if (error != std::errc{} || end != text->data() + text->size() || domain < 0 ||
-        domain > highest_domain) {
-      problems_.add(entry.value_at, "the domain must be an integer from 0 to " +
-                                        std::to_string(highest_domain) + ", not '" + *text + "'");
-      return;
+    if (const auto domain = read_integer(entry, "the domain", 0, highest_domain, problems_)) {
+      deployment_.domain = *domain;
     }
-    deployment_.domain = domain;
   }
 
   void read_services(const Entry& entry) {
@@ -130,7 +131,7 @@ class Reader {
     }
     DraftService draft;
     draft.config.position = at;
-    std::optional<Entry> kind, method, parameters;
+    std::optional<Entry> kind, method, parameters, lease;
     bool named = false;
     std::optional<std::string> qos = qos_;
     for (const Entry& entry : entries_of(node, "a service", problems_)) {
@@ -140,7 +141,7 @@ class Reader {
       } else if (entry.key == "kind") {
         kind = entry;
       } else if (entry.key == "input") {
-        if (const auto text = read_text(entry)) {
+        if (const auto text = read_text(entry, problems_)) {
           draft.config.input = *text;
           draft.input_at = entry.value_at;
         }
@@ -149,15 +150,22 @@ class Reader {
       } else if (entry.key == "parameters") {
         parameters = entry;
       } else if (entry.key == "qos") {
-        qos = read_choice(entry, "QoS preset", qos_names());
+        qos = read_choice(entry, "QoS preset", qos_names(), problems_);
       } else if (entry.key == "restart") {
-        if (read_choice(entry, "restart policy", {"always", "never"}) == "never") {
+        if (read_choice(entry, "restart policy", {"always", "never"}, problems_) == "never") {
           draft.config.restart = RestartPolicy::never;
         }
+      } else if (entry.key == "host") {
+        read_host(entry, draft);
+      } else if (entry.key == "strength") {
+        draft.config.strength = read_integer(entry, "the strength", 0, highest_strength, problems_);
+      } else if (entry.key == "lease") {
+        lease = entry;
       } else {
-        problems_.add(entry.key_at, "unknown key '" + entry.key + "' of a service" +
-                                        suggestion(entry.key, {"name", "kind", "input", "method",
-                                                               "parameters", "qos", "restart"}));
+        problems_.add(entry.key_at,
+                      "unknown key '" + entry.key + "' of a service" +
+                          suggestion(entry.key, {"name", "kind", "input", "method", "parameters",
+                                                 "qos", "restart", "host", "strength", "lease"}));
       }
     }
     if (!named) problems_.add(at, "a service without a name; add name: NAME");
@@ -169,6 +177,8 @@ class Reader {
     }
     if (draft.kind != nullptr) {
       draft.config.qos = qos.value_or(draft.kind->qos);
+      // A source tells that it lives by its scans alone, which may be 100 ms apart.
+      if (draft.kind->input == MessageType::none) draft.config.lease *= 5;
       const bool known = read_method(method, draft);
       if (parameters) {
         draft.config.parameters = read_parameters(
@@ -177,7 +187,31 @@ class Reader {
       }
       if (known) require_parameters(parameters ? parameters->key_at : at, draft);
     }
+    if (lease) read_lease(*lease, draft);
     drafts_.push_back(std::move(draft));
+  }
+
+  void read_lease(const Entry& entry, DraftService& draft) {
+    if (!draft.config.strength) {
+      problems_.add(entry.key_at, "a lease without a strength; add strength: NUMBER");
+      return;
+    }
+    if (const auto seconds = read_seconds(entry, "the lease", 0.02, 60.0, problems_)) {
+      draft.config.lease =
+          std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(*seconds));
+    }
+  }
+
+  void read_host(const Entry& entry, DraftService& draft) {
+    const auto text = read_text(entry, problems_);
+    if (!text) return;
+    if (text->empty() || text->size() > longest_name ||
+        !only_of(*text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._")) {
+      problems_.add(entry.value_at, "the host '" + *text + "' must be up to " +
+                                        std::to_string(longest_name) +
+                                        " letters, digits, -, . and _");
+    }
+    draft.config.host = *text;  // a bad one, too: it has been named
   }
 
   void require_parameters(Position at, const DraftService& draft) {
@@ -191,7 +225,7 @@ class Reader {
 
   void read_name(const Entry& entry, DraftService& draft) {
     draft.name_at = entry.value_at;
-    const auto text = read_text(entry);
+    const auto text = read_text(entry, problems_);
     if (!text) return;
     // A bad name is kept, so that inputs that name it give no second error.
     draft.config.name = *text;
@@ -204,7 +238,7 @@ class Reader {
   }
 
   void read_kind(const Entry& entry, DraftService& draft) {
-    const auto text = read_text(entry);
+    const auto text = read_text(entry, problems_);
     if (!text) return;
     draft.config.kind = *text;
     draft.kind = find_kind(*text);
@@ -224,7 +258,7 @@ class Reader {
       if (!kind.methods.empty()) draft.config.method = kind.methods.front().name;
       return true;
     }
-    const auto text = read_text(*entry);
+    const auto text = read_text(*entry, problems_);
     if (!text) return false;
     if (kind.methods.empty()) {
       problems_.add(entry->key_at, "kind " + kind.name + " has no methods; remove the method of '" +
@@ -243,27 +277,6 @@ class Reader {
                                        draft.config.name + "'" + suggestion(*text, names) +
                                        " (quoin methods lists them)");
     return false;
-  }
-
-  std::optional<std::string> read_text(const Entry& entry) {
-    if (!entry.value.IsScalar()) {
-      problems_.add(entry.value_at,
-                    "'" + entry.key + "' must be a single value, not " + what_is(entry.value));
-      return std::nullopt;
-    }
-    return entry.value.Scalar();
-  }
-
-  std::optional<std::string> read_choice(const Entry& entry, const std::string& what,
-                                         const std::vector<std::string>& choices) {
-    const auto text = read_text(entry);
-    if (!text) return std::nullopt;
-    for (const std::string& choice : choices) {
-      if (*text == choice) return text;
-    }
-    problems_.add(entry.value_at,
-                  "unknown " + what + " '" + *text + "'" + suggestion(*text, choices));
-    return std::nullopt;
   }
 
   static const std::vector<std::string>& qos_names() {
@@ -290,6 +303,10 @@ Deployment parse_deployment(const std::string& text, const std::filesystem::path
 }
 
 Deployment load_deployment(const std::filesystem::path& file) {
+  return parse_deployment(read_deployment(file), file);
+}
+
+std::string read_deployment(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -305,7 +322,7 @@ Deployment load_deployment(const std::filesystem::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) fail(file, "cannot be read");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_deployment(text, file);
+  return text;
 }
 
 }  // namespace quoin::deploy

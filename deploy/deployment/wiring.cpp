@@ -3,6 +3,7 @@
 #include "deploy/deployment/wiring.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,18 +17,32 @@ namespace {
 
 using Index = std::map<std::string, std::size_t>;
 
+/// Whether two services of one name are instances that stand in for each other.
+bool are_instances(const DraftService& one, const DraftService& other) {
+  return one.config.strength && other.config.strength &&
+         one.config.strength != other.config.strength && one.config.kind == other.config.kind &&
+         one.config.qos == other.config.qos && one.config.lease == other.config.lease;
+}
+
 Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
   Index index;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     const std::string& name = drafts[i].config.name;
     if (name.empty()) continue;
-    const auto [first, inserted] = index.emplace(name, i);
-    if (!inserted) {
-      const Position at = drafts[first->second].name_at;
-      problems.add(drafts[i].name_at, "the name '" + name + "' is taken by the service at " +
-                                          std::to_string(at.line) + ":" +
-                                          std::to_string(at.column) + "; names must be unique");
-    }
+    index.emplace(name, i);
+    const auto other =
+        std::find_if(drafts.begin(), drafts.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const DraftService& draft) {
+                       return draft.config.name == name && !are_instances(draft, drafts[i]);
+                     });
+    if (other == drafts.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    const Position at = other->name_at;
+    problems.add(
+        drafts[i].name_at,
+        "the name '" + name + "' is taken by the service at " + std::to_string(at.line) + ":" +
+            std::to_string(at.column) +
+            "; names must be unique, unless the services are of one kind, QoS and lease and have "
+            "different strengths");
   }
   return index;
 }
@@ -141,11 +156,23 @@ void check_input(const DraftService& service, const std::vector<DraftService>& d
   }
 }
 
+/// Either no service names a host, or each does: nobody could tell where the others shall run.
+void check_hosts(const std::vector<DraftService>& drafts, Problems& problems) {
+  const auto named = [](const DraftService& draft) { return !draft.config.host.empty(); };
+  if (std::none_of(drafts.begin(), drafts.end(), named)) return;
+  for (const DraftService& draft : drafts) {
+    if (named(draft)) continue;
+    problems.add(draft.config.position, "service '" + draft.config.name +
+                                            "' names no host, but others do; add host: NAME");
+  }
+}
+
 }  // namespace
 
 std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts, Problems& problems) {
   const Index index = index_names(drafts, problems);
   const std::set<std::size_t> in_cycle = find_cycles(drafts, index, problems);
+  check_hosts(drafts, problems);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     // In a circle some type must mismatch too; saying so would only distract.
     if (!in_cycle.contains(i)) check_input(drafts[i], drafts, index, problems);
@@ -153,14 +180,26 @@ std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts, Problem
   std::vector<ServiceConfig> ordered;
   if (!problems.empty()) return ordered;
 
-  std::set<std::string> placed;
-  while (ordered.size() < drafts.size()) {
-    const auto next = std::find_if(drafts.begin(), drafts.end(), [&](const DraftService& draft) {
-      return !placed.contains(draft.config.name) &&
-             (draft.config.input.empty() || placed.contains(draft.config.input));
+  std::vector<const DraftService*> left;
+  for (const DraftService& draft : drafts) left.push_back(&draft);
+  const auto waits_for = [&](const DraftService& draft, const DraftService& other) {
+    return other.config.name == draft.config.input ||
+           (other.config.name == draft.config.name &&
+            other.config.strength > draft.config.strength);
+  };
+  while (!left.empty()) {
+    const auto next = std::find_if(left.begin(), left.end(), [&](const DraftService* draft) {
+      return std::none_of(left.begin(), left.end(),
+                          [&](const DraftService* other) { return waits_for(*draft, *other); });
     });
-    placed.insert(next->config.name);
-    ordered.push_back(next->config);
+    if (next == left.end()) {
+      problems.add(left.front()->config.position,
+                   "cycle: '" + left.front()->config.name +
+                       "' reads itself by way of other instances; start from a source of scans");
+      return {};
+    }
+    ordered.push_back((*next)->config);
+    left.erase(next);
   }
   return ordered;
 }

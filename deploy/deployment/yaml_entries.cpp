@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/deployment/yaml_entries.hpp"
 
+#include <charconv>
 #include <map>
 #include <sstream>
 
 #include <yaml-cpp/eventhandler.h>
+
+#include "core/methods/suggestion.hpp"
 
 namespace quoin::deploy {
 
@@ -111,6 +114,64 @@ std::vector<Entry> entries_of(const YAML::Node& map, const std::string& owner, P
     entries.push_back({key, key_at, pair.second, value_at});
   }
   return entries;
+}
+
+std::optional<std::string> read_text(const Entry& entry, Problems& problems) {
+  if (!entry.value.IsScalar()) {
+    problems.add(entry.value_at,
+                 "'" + entry.key + "' must be a single value, not " + what_is(entry.value));
+    return std::nullopt;
+  }
+  return entry.value.Scalar();
+}
+
+std::optional<std::string> read_choice(const Entry& entry, const std::string& what,
+                                       const std::vector<std::string>& choices,
+                                       Problems& problems) {
+  const auto text = read_text(entry, problems);
+  if (!text) return std::nullopt;
+  for (const std::string& choice : choices) {
+    if (*text == choice) return text;
+  }
+  problems.add(entry.value_at, "unknown " + what + " '" + *text + "'" + suggestion(*text, choices));
+  return std::nullopt;
+}
+
+std::optional<int> read_integer(const Entry& entry, const std::string& what, int lowest,
+                                int highest, Problems& problems) {
+  const auto text = read_text(entry, problems);
+  if (!text) return std::nullopt;
+  int number = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
+  if (error != std::errc{} || end != text->data() + text->size() || number < lowest ||
+      number > highest) {
+    problems.add(entry.value_at, what + " must be an integer from " + std::to_string(lowest) +
+                                     " to " + std::to_string(highest) + ", not '" + *text + "'");
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::vector<Entry> read_list(const Entry& entry, Problems& problems) {
+  std::vector<Entry> entries;
+  if (!entry.value.IsSequence()) {
+    if (read_text(entry, problems)) entries.push_back(entry);
+    return entries;
+  }
+  for (const YAML::Node& node : entry.value) {
+    const Entry element{entry.key, entry.key_at, node, position_of(node.Mark())};
+    if (node.IsScalar()) {
+      entries.push_back(element);
+    } else {
+      problems.add(element.value_at, "an element of '" + entry.key +
+                                         "' must be a single value, not " + what_is(node));
+    }
+  }
+  return entries;
+}
+
+bool only_of(std::string_view text, std::string_view allowed) {
+  return text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
 }  // namespace quoin::deploy

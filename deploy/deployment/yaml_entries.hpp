@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
@@ -28,6 +29,24 @@ struct Entry {
   YAML::Node value;
   Position value_at;
 };
+
+/// The value of an entry that is a single text; nothing, and a problem, when it is not.
+[[nodiscard]] std::optional<std::string> read_text(const Entry& entry, Problems& problems);
+
+/// The same for one of `choices`; `what` names them in error texts.
+[[nodiscard]] std::optional<std::string> read_choice(const Entry& entry, const std::string& what,
+                                                     const std::vector<std::string>& choices,
+                                                     Problems& problems);
+
+/// The same for an integer from `lowest` to `highest`.
+[[nodiscard]] std::optional<int> read_integer(const Entry& entry, const std::string& what,
+                                              int lowest, int highest, Problems& problems);
+
+/// Each text of a list, or of a value that stands for a list of one, as an entry with its place.
+[[nodiscard]] std::vector<Entry> read_list(const Entry& entry, Problems& problems);
+
+/// Whether `text` has no other characters than those.
+[[nodiscard]] bool only_of(std::string_view text, std::string_view allowed);
 
 /// The entries of a YAML map whose keys are plain texts, each once; others become problems.
 [[nodiscard]] std::vector<Entry> entries_of(const YAML::Node& map, const std::string& owner,

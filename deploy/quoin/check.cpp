@@ -26,11 +26,12 @@ Json describe(const Deployment& deployment) {
     Json parameters = Json::object();
     for (const ParameterSetting& setting : service.parameters)
       parameters[setting.name] = setting.text;
-    services.push_back({{"name", service.name},
+    services.push_back({{"name", label(service)},
                         {"kind", service.kind},
                         {"input", service.input},
                         {"method", service.method},
                         {"qos", service.qos},
+                        {"host", service.host},
                         {"restart", service.restart == RestartPolicy::always ? "always" : "never"},
                         {"topic", output_topic(deployment, service)},
                         {"parameters", parameters}});
@@ -46,8 +47,9 @@ void print(const Deployment& deployment) {
             << (deployment.services.size() == 1 ? " service" : " services") << " in domain "
             << deployment.domain << '\n';
   for (const ServiceConfig& service : deployment.services) {
-    std::cout << "  " << service.name << ": " << service.kind;
+    std::cout << "  " << label(service) << ": " << service.kind;
     if (!service.method.empty()) std::cout << '/' << service.method;
+    if (!service.host.empty()) std::cout << " on " << service.host;
     if (!service.input.empty()) std::cout << " reads " << service.input;
     const std::string topic = output_topic(deployment, service);
     std::cout << (topic.empty() ? ", publishes nothing\n"

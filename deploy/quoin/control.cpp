@@ -4,24 +4,22 @@
 #include <idl/Control.h>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/network_options.hpp"
+#include "deploy/quoin/requester.hpp"
 #include "services/runtime/participant.hpp"
-#include "services/runtime/reader.hpp"
-#include "services/runtime/writer.hpp"
 
 namespace quoin::deploy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
 struct ControlOptions {
   std::string service;
@@ -31,55 +29,6 @@ struct ControlOptions {
   NetworkOptions network;
   double wait = 5.0;  // [s]
   bool json = false;
-};
-
-/// Talks to one service of a running deployment.
-class Requester {
- public:
-  Requester(int domain, const std::string& name_space, std::string service)
-      : service_(std::move(service)),
-        name_("quoin_" + std::to_string(::getpid())),
-        participant_({domain, name_space + "/" + name_}),
-        writer_(participant_, control_request_topic(name_space), runtime::QosPreset::control),
-        reader_(participant_, control_reply_topic(name_space), runtime::QosPreset::control) {
-    wait_set_.add(reader_);
-  }
-
-  /// True once the service has answered anything: from then on no request is lost.
-  [[nodiscard]] bool reach(Clock::time_point deadline) {
-    while (Clock::now() < deadline) {
-      msg::ControlRequest question;
-      question.action(msg::ControlAction::CONTROL_DESCRIBE);
-      if (ask(question, std::min(deadline, Clock::now() + milliseconds(200)))) return true;
-    }
-    return false;
-  }
-
-  [[nodiscard]] std::optional<msg::ControlReply> ask(msg::ControlRequest& request,
-                                                     Clock::time_point deadline) {
-    request.service(service_);
-    request.requester(name_);
-    request.request(++number_);
-    if (!writer_.write(request)) return std::nullopt;
-    msg::ControlReply reply;
-    while (Clock::now() < deadline) {
-      wait_set_.wait(milliseconds(20));
-      while (reader_.take(reply)) {
-        const bool is_mine = reply.requester() == name_ && reply.service() == service_;
-        if (is_mine && reply.request() == number_) return reply;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  std::string service_;
-  std::string name_;
-  runtime::Participant participant_;
-  runtime::Writer<msg::ControlRequest> writer_;
-  runtime::Reader<msg::ControlReply> reader_;
-  runtime::WaitSet wait_set_;
-  std::uint64_t number_ = 0;
 };
 
 void add_settings(const std::vector<std::string>& settings, msg::ControlRequest& request) {
@@ -114,23 +63,22 @@ void print(const msg::ControlReply& reply) {
 }
 
 int run(const ControlOptions& options, msg::ControlAction action) {
-  auto [domain, name_space] = options.network;
-  if (!options.file.empty()) {
-    const Deployment deployment = load_deployment(options.file);
-    (void)deployment.service(options.service);  // a name that is none is told at once
-    domain = deployment.domain;
-    name_space = deployment.name_space;
-  }
-  Requester requester(domain, name_space, options.service);
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  // A name that is none is told at once.
+  if (!options.file.empty()) (void)deployment.service(options.service);
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_control", operator_identity));
+  Requester requester(participant, deployment.name_space);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                            std::chrono::duration<double>(options.wait));
-  if (!requester.reach(deadline)) {
-    std::cerr << "no service '" << options.service << "' of namespace '" << name_space
-              << "' answers in domain " << domain
+  if (!requester.reach(options.service, deadline)) {
+    std::cerr << "no service '" << options.service << "' of namespace '" << deployment.name_space
+              << "' answers in domain " << deployment.domain
               << "; is it running, and does it have methods? (quoin status shows who is there)\n";
     return exit_failure;
   }
   msg::ControlRequest request;
+  request.service(options.service);
   request.action(action);
   request.method(options.method);
   add_settings(options.settings, request);

@@ -43,6 +43,16 @@ std::string printable(std::string text) {
   return text;
 }
 
+View view_of(const DeploymentFigures& figures) {
+  return {.table = [&figures](std::size_t width) { return table_lines(figures, width); },
+          .footer =
+              [&figures] {
+                return fixed(figures.duration, 1) + " s, " +
+                       std::to_string(figures.scans_published) + " scans";
+              },
+          .line = [&figures] { return progress_line(figures); }};
+}
+
 }  // namespace
 
 Display::Display(Mode mode)
@@ -66,32 +76,34 @@ void Display::log(const std::string& service, const std::string& line) {
   draw_table();
 }
 
-void Display::show(const DeploymentFigures& figures) {
-  const auto now = Clock::now();
-  if ((!live_ && !lines_) || now < next_) return;
-  next_ = now + (live_ ? table_period : line_period);
+void Display::show(const View& view) {
+  if (!due()) return;
+  next_ = Clock::now() + (live_ ? table_period : line_period);
   if (lines_) {
-    (to_errors_ ? std::cerr : std::cout) << progress_line(figures) << std::endl;
+    (to_errors_ ? std::cerr : std::cout) << view.line() << std::endl;
     return;
   }
   erase_table();
-  table_ = table_lines(figures, terminal_size().width);
-  table_.push_back(fixed(figures.duration, 1) + " s, " + std::to_string(figures.scans_published) +
-                   " scans; Ctrl-C stops");
+  table_ = view.table(terminal_size().width);
+  table_.push_back(view.footer() + "; Ctrl-C stops");
   draw_table();
 }
 
-void Display::finish(const DeploymentFigures& figures) {
+void Display::show(const DeploymentFigures& figures) { show(view_of(figures)); }
+
+void Display::finish(const View& view) {
   if (!live_ && !lines_) return;
   if (live_) erase_table();
   const std::size_t width = live_ ? terminal_size().width : std::string::npos;
   std::ostream& out = to_errors_ ? std::cerr : std::cout;
-  for (const std::string& line : table_lines(figures, width)) out << line << '\n';
-  out << fixed(figures.duration, 1) << " s, " << figures.scans_published << " scans" << std::endl;
+  for (const std::string& line : view.table(width)) out << line << '\n';
+  out << view.footer() << std::endl;
   table_.clear();
   live_ = false;
   lines_ = false;
 }
+
+void Display::finish(const DeploymentFigures& figures) { finish(view_of(figures)); }
 
 void Display::erase_table() {
   // Up to the first line of the table, then clear everything below.

@@ -4,12 +4,21 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "deploy/report/figures.hpp"
 
 namespace quoin::deploy {
+
+/// What there is to see at one moment, made only where it is shown.
+struct View {
+  /// Lines of at most that many characters.
+  std::function<std::vector<std::string>(std::size_t width)> table;
+  std::function<std::string()> footer;  ///< below the table
+  std::function<std::string()> line;    ///< the same in one line, for logs
+};
 
 /// Shows a running deployment: a table that is redrawn in place on a terminal, with log lines
 /// scrolling above it, or a line a second elsewhere.
@@ -28,9 +37,13 @@ class Display {
 
   /// A line of a service's log; gets the service's name in front unless that is in it.
   void log(const std::string& service, const std::string& line);
-  /// Shows `figures` if it is time to.
+  /// Whether it is time to show something.
+  [[nodiscard]] bool due() const { return (live_ || lines_) && Clock::now() >= next_; }
+  /// Shows `view` if it is time to.
+  void show(const View& view);
   void show(const DeploymentFigures& figures);
   /// Shows the last figures and leaves the table standing.
+  void finish(const View& view);
   void finish(const DeploymentFigures& figures);
 
  private:

@@ -13,6 +13,7 @@
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/exclusive.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/scan_join.hpp"
 #include "deploy/quoin/signals.hpp"
@@ -57,7 +58,8 @@ class Companion {
     };
     // A configuration error ends everything, whenever it shows.
     callbacks.was_active = [](const std::string&) { return false; };
-    supervisor_.emplace(process_plans(deployment, observers), std::move(callbacks));
+    supervisor_.emplace(process_plans(deployment, host_to_run(deployment, ""), observers),
+                        std::move(callbacks));
     supervisor_->start();
   }
 

@@ -10,10 +10,12 @@
 
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/message_json.hpp"
 #include "deploy/quoin/message_text.hpp"
 #include "deploy/quoin/signals.hpp"
+#include "services/runtime/accounting.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 
@@ -33,21 +35,24 @@ struct EchoOptions {
 template <class T>
 int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
   Signals signals;
-  runtime::Participant participant({deployment.domain, deployment.name_space + "/quoin_echo"});
-  // Whoever only looks must not slow the writer down, as a lossless reader would.
-  const std::string qos = service.qos == "lossless" ? "feature" : service.qos;
+  runtime::Participant participant(
+      runtime::participant_config(deployment, "quoin_echo", observer_identity));
   const std::string topic = output_topic(deployment, service);
-  runtime::Reader<T> reader(participant, topic, runtime::qos_preset(qos));
+  runtime::Reader<T> reader(participant, topic, runtime::onlooker_qos(service));
   runtime::WaitSet wait_set;
   wait_set.add(reader);
   if (!reader.wait_for_writers(1, milliseconds(1500))) {
     std::cerr << "nobody publishes " << topic << " yet; waiting (quoin up starts a deployment)\n";
   }
+  runtime::ScanAccounting accounting;
   T message;
   std::uint64_t printed = 0;
   while (signals.take() == 0) {
     wait_set.wait(milliseconds(100));
     while (reader.take(message)) {
+      // Two instances of a service may both have handled a scan when one takes over.
+      accounting.receive(message.header());
+      if (accounting.last_was_duplicate()) continue;
       if (options.json) {
         std::cout << to_json(message).dump(-1, ' ', false,
                                            nlohmann::ordered_json::error_handler_t::replace)

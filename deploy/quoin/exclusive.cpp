@@ -15,8 +15,8 @@
 namespace quoin::deploy {
 
 Exclusive::Exclusive(const Deployment& deployment) {
-  // An abstract socket leaves no file behind, goes with the process, and reaches exactly as far as
-  // the loopback interface that the topics are on: one network namespace.
+  // An abstract socket leaves no file behind, goes with the process, and reaches as far as a host's
+  // interfaces do: one network namespace.
   const std::string name =
       "quoin/" + std::to_string(deployment.domain) + "/" + deployment.name_space;
   sockaddr_un address{};

@@ -108,29 +108,18 @@ int run_probe(const LidarOptions& options) {
   return !reports.empty() && std::ranges::all_of(reports, is_fine) ? exit_ok : exit_failure;
 }
 
-void print_check(const LidarCheck& check) {
-  std::cout << "  " << verdict_name(check.verdict)
-            << std::string(10 - verdict_name(check.verdict).size(), ' ') << check.name << ": "
-            << check.text << '\n';
-  if (!check.advice.empty()) std::cout << "            -> " << check.advice << '\n';
-}
-
 int run_doctor(const LidarOptions& options) {
   const std::vector<LidarReport> reports = examine_all(options);
   Json devices = Json::array();
   bool healthy = !reports.empty();
   for (const LidarReport& report : reports) {
-    Json list = Json::array();
     if (!options.json && report.found()) std::cout << report.probe.facts->endpoint << '\n';
-    for (const LidarCheck& check : lidar_checks(report)) {
-      healthy = healthy && check.verdict == Verdict::good;
-      if (!options.json) print_check(check);
-      list.push_back({{"check", check.name},
-                      {"verdict", verdict_name(check.verdict)},
-                      {"text", check.text},
-                      {"advice", check.advice}});
+    const Checks checks = lidar_checks(report);
+    healthy = healthy && all_good(checks);
+    if (!options.json) {
+      for (const Check& check : checks) print(check, std::cout);
     }
-    devices.push_back({{"device", to_json(report)}, {"checks", list}});
+    devices.push_back({{"device", to_json(report)}, {"checks", to_json(checks)}});
   }
   if (options.json) {
     std::cout << Json{{"healthy", healthy}, {"devices", devices}}.dump(2) << '\n';

@@ -23,7 +23,7 @@ bool is_harmless(Finding finding) {
          finding == Finding::other_baud_rate || finding == Finding::unknown_model;
 }
 
-LidarCheck check_health(const DeviceHealth& health) {
+Check check_health(const DeviceHealth& health) {
   const std::string code = ", error code " + std::to_string(health.error_code);
   switch (health.status) {
     case Health::good:
@@ -38,7 +38,7 @@ LidarCheck check_health(const DeviceHealth& health) {
           "see that it can turn freely, then switch it off and on"};
 }
 
-LidarCheck check_rotation(const Measurement& measurement) {
+Check check_rotation(const Measurement& measurement) {
   const std::string measured = fixed(measurement.frequency, 2) + " Hz";
   const double expected =
       measurement.plan && measurement.plan->speed ? *measurement.plan->speed / 60.0 : 0.0;
@@ -49,7 +49,7 @@ LidarCheck check_rotation(const Measurement& measurement) {
   return {"rotation", Verdict::good, measured, ""};
 }
 
-LidarCheck check_samples(const Measurement& measurement) {
+Check check_samples(const Measurement& measurement) {
   const std::string measured = fixed(measurement.sample_rate, 0) + " a second, " +
                                std::to_string(measurement.counts.lost_samples) + " lost, " +
                                std::to_string(measurement.counts.checksum_errors) +
@@ -66,7 +66,7 @@ LidarCheck check_samples(const Measurement& measurement) {
   return {"samples", Verdict::good, measured, ""};
 }
 
-LidarCheck check_returns(const Measurement& measurement) {
+Check check_returns(const Measurement& measurement) {
   constexpr double few = 0.2;
   const std::string share = fixed(100.0 * measurement.return_share, 0) + " % have a range";
   if (measurement.return_share < few) {
@@ -78,22 +78,10 @@ LidarCheck check_returns(const Measurement& measurement) {
 
 }  // namespace
 
-std::string verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::good:
-      return "ok";
-    case Verdict::doubtful:
-      return "doubtful";
-    case Verdict::bad:
-      break;
-  }
-  return "bad";
-}
-
-std::vector<LidarCheck> lidar_checks(const LidarReport& report) {
+Checks lidar_checks(const LidarReport& report) {
   const Diagnosis& diagnosis = report.probe.diagnosis;
   const Finding finding = diagnosis.finding;
-  std::vector<LidarCheck> checks;
+  Checks checks;
   if (!report.found()) {
     checks.push_back({"connection", Verdict::bad, diagnosis.text, diagnosis.advice});
     return checks;

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/heartbeat.hpp"
 #include "services/runtime/qos.hpp"
 
 namespace quoin::deploy {
@@ -14,22 +17,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-std::string state_name(msg::ServiceState state) {
-  switch (state) {
-    case msg::STATE_STARTING:
-      return "starting";
-    case msg::STATE_ACTIVE:
-      return "active";
-    case msg::STATE_FINISHED:
-      return "finished";
-    case msg::STATE_STOPPED:
-      return "stopped";
-    case msg::STATE_FAILED:
-      return "failed";
-  }
-  return "unknown";
-}
 
 std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
   const ServiceConfig* origin = &service;
@@ -41,9 +28,10 @@ std::string source_of(const Deployment& deployment, const ServiceConfig& service
 
 ServiceReport report_of(const msg::ServiceStatus& status) {
   ServiceReport report;
-  report.state = state_name(status.state());
+  report.state = runtime::state_name(status.state());
   report.detail = status.detail();
   report.received = status.received();
+  report.first_number = status.first_sequence_number();
   report.published = status.published();
   report.lost = status.lost();
   for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
@@ -58,23 +46,116 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   return report;
 }
 
-Monitor::Monitor(const Deployment& deployment)
-    : deployment_(deployment),
-      participant_({deployment.domain, deployment.name_space + "/quoin"}),
+Monitor::Monitor(const Deployment& deployment, const std::string& host)
+    : file_(deployment.file.string()),
+      host_(host),
+      participant_(runtime::participant_config(deployment, "quoin", operator_identity)),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
-  for (const ServiceConfig& service : deployment.services) {
-    services_[service.name].method = service.method;
-    if (find_kind(service.kind)->output != MessageType::corners) continue;
-    CornerWatch watch;
-    watch.name = service.name;
-    watch.source = source_of(deployment, service);
-    watch.reader = std::make_unique<runtime::Reader<msg::Corners>>(
-        participant_, output_topic(deployment, service), runtime::qos_preset(service.qos));
-    wait_set_.add(*watch.reader);
-    corners_.push_back(std::move(watch));
-  }
+  add(deployment);
+  for (CornerWatch& watch : corners_) watch.joined_late = false;
+  settle(deployment);
   thread_ = std::thread([this] { listen(); });
+}
+
+void Monitor::add(const Deployment& wanted) {
+  const std::lock_guard lock(mutex_);
+  for (const ServiceConfig& service : wanted.services) {
+    const auto [watch, added] = services_.try_emplace(label(service));
+    if (added) {
+      watch->second.name = service.name;
+      watch->second.here = service.host == host_;
+      order_.push_back(label(service));
+    }
+    if (service.host != host_ || find_kind(service.kind)->output != MessageType::corners) continue;
+    listen_to_corners(wanted, service);
+  }
+}
+
+void Monitor::listen_to_corners(const Deployment& deployment, const ServiceConfig& service) {
+  for (const CornerWatch& watch : corners_) {
+    if (watch.name == service.name) return;  // its instances write to one topic
+  }
+  CornerWatch watch;
+  watch.name = service.name;
+  watch.joined_late = true;
+  watch.reader = std::make_unique<runtime::Reader<msg::Corners>>(
+      participant_, output_topic(deployment, service), runtime::output_qos(service));
+  wait_set_.add(*watch.reader);
+  corners_.push_back(std::move(watch));
+}
+
+void Monitor::settle(const Deployment& deployment) {
+  const std::lock_guard lock(mutex_);
+  file_ = deployment.file.string();
+  std::vector<std::string> order;
+  for (auto& [name, watch] : services_) watch.present = false;
+  for (const ServiceConfig& service : deployment.services) {
+    ServiceWatch& watch = services_.at(label(service));
+    watch.kind = service.kind;
+    watch.here = service.host == host_;
+    watch.source = service.input.empty();
+    watch.present = true;
+    if (!watch.settled) watch.method = service.method;
+    watch.settled = true;
+    order.push_back(label(service));
+  }
+  std::erase_if(services_, [](const auto& entry) { return !entry.second.settled; });
+  for (const std::string& name : order_) {
+    const auto known = services_.find(name);
+    if (known != services_.end() && !known->second.present) order.push_back(name);
+  }
+  order_ = std::move(order);
+  for (CornerWatch& watch : corners_) {
+    if (is_present(watch.name)) {
+      watch.source = source_of(deployment, deployment.service(watch.name));
+    } else {
+      // Should it come back, what happened meanwhile was for nobody.
+      watch.accounting.interrupt();
+      watch.joined_late = true;
+    }
+  }
+}
+
+// Whether the newest process has told that it ends.
+bool Monitor::ended(const ServiceWatch& watch) {
+  if (watch.processes.empty()) return false;
+  const msg::ServiceState state = watch.processes.rbegin()->second.state;
+  return state != msg::STATE_STARTING && state != msg::STATE_HELD && state != msg::STATE_ACTIVE;
+}
+
+// Whether any instance of the name is part of this host's share now.
+bool Monitor::is_present(const std::string& name) const {
+  return std::any_of(services_.begin(), services_.end(), [&](const auto& entry) {
+    return entry.second.name == name && entry.second.here && entry.second.present;
+  });
+}
+
+std::optional<ProcessWatch> Monitor::process(const std::string& name, int process_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto service = services_.find(name);
+  if (service == services_.end()) return std::nullopt;
+  for (const auto& [incarnation, watch] : service->second.processes) {
+    if (watch.process_id == process_id) return watch;
+  }
+  return std::nullopt;
+}
+
+void Monitor::forget(const std::string& name, int process_id) {
+  const std::lock_guard lock(mutex_);
+  forgotten_[process_id] = static_cast<std::uint64_t>(runtime::now_ns());
+  const auto service = services_.find(name);
+  if (service == services_.end()) return;
+  std::erase_if(service->second.processes, [&](const auto& entry) {
+    if (entry.second.process_id != process_id) return false;
+    service->second.incarnations.forget(entry.first);
+    return true;
+  });
+}
+
+bool Monitor::removed(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return !services_.at(name).present;
 }
 
 Monitor::~Monitor() {
@@ -109,13 +190,30 @@ bool Monitor::take_all() {
 void Monitor::take(const msg::ServiceStatus& status) {
   const auto found = services_.find(status.service());
   if (found == services_.end()) return;
+  const auto forgotten = forgotten_.find(static_cast<int>(status.pid()));
+  if (forgotten != forgotten_.end() && status.incarnation() <= forgotten->second) return;
   ServiceWatch& watch = found->second;
   const ServiceReport report = report_of(status);
   watch.incarnations.update(status.incarnation(), report);
-  watch.process_ids[status.incarnation()] = static_cast<int>(status.pid());
+  watch.processes[status.incarnation()] = {static_cast<int>(status.pid()), status.incarnation(),
+                                           status.state(), status.detail()};
+  if (status.state() == msg::STATE_HELD) return;
   watch.method = status.method();
   watch.was_active = watch.was_active || status.state() != msg::STATE_STARTING;
-  watch.ended = status.state() != msg::STATE_STARTING && status.state() != msg::STATE_ACTIVE;
+}
+
+// The instance that wrote an entry of a trace; null when there are several and it has not told its
+// incarnation yet.
+Monitor::ServiceWatch* Monitor::writer_of(const msg::StageTrace& trace) {
+  ServiceWatch* only = nullptr;
+  bool several = false;
+  for (auto& [label, watch] : services_) {
+    if (watch.name != trace.service()) continue;
+    if (watch.processes.contains(trace.incarnation())) return &watch;
+    several = only != nullptr;
+    only = &watch;
+  }
+  return several ? nullptr : only;
 }
 
 void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
@@ -123,13 +221,14 @@ void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
   const std::uint64_t received = watch.accounting.received();
   watch.accounting.receive(message.header());
   if (watch.accounting.received() == received) return;  // the same scan again
-  if (first) watch.lost_at_start = message.header().sequence_number();
+  if (!message.header().trace().empty()) watch.source_trace = message.header().trace()[0];
+  if (first && !watch.joined_late) watch.lost_at_start = message.header().sequence_number();
   // Heartbeats come once a second; the trace tells at once what a process had published, which is
   // all there is when it is killed.
   for (const msg::StageTrace& trace : message.header().trace()) {
-    const auto service = services_.find(trace.service());
-    if (service == services_.end()) continue;
-    service->second.incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
+    ServiceWatch* service = writer_of(trace);
+    if (service == nullptr) continue;
+    service->incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
   }
   watch.corners += message.corners().size();
   for (const msg::Corner& corner : message.corners()) {
@@ -141,7 +240,8 @@ void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
 
 bool Monitor::was_active(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  return services_.at(name).was_active;
+  const auto service = services_.find(name);
+  return service != services_.end() && service->second.was_active;
 }
 
 bool Monitor::all_were_active() const { return never_active().empty(); }
@@ -150,7 +250,7 @@ std::string Monitor::never_active() const {
   const std::lock_guard lock(mutex_);
   std::string names;
   for (const auto& [name, watch] : services_) {
-    if (watch.was_active) continue;
+    if (watch.was_active || !watch.here || !watch.present) continue;
     names += (names.empty() ? "" : ", ") + name;
     const std::string detail = watch.incarnations.total().detail;
     if (!detail.empty()) names += " (" + detail + ")";
@@ -162,37 +262,49 @@ std::map<std::string, std::set<int>> Monitor::processes() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, std::set<int>> processes;
   for (const auto& [name, watch] : services_) {
-    for (const auto& [incarnation, process] : watch.process_ids) processes[name].insert(process);
+    if (!watch.here) continue;
+    for (const auto& [incarnation, process] : watch.processes) {
+      processes[name].insert(process.process_id);
+    }
   }
   return processes;
 }
 
 int Monitor::newest_process(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  const auto& processes = services_.at(name).process_ids;
-  return processes.empty() ? 0 : processes.rbegin()->second;
+  const auto& processes = services_.at(name).processes;
+  return processes.empty() ? 0 : processes.rbegin()->second.process_id;
 }
 
 std::uint64_t Monitor::scans_published(const std::string& source) const {
-  return services_.at(source).incarnations.total().published;
+  std::uint64_t most = 0;
+  for (const auto& [label, watch] : services_) {
+    if (watch.name == source) most = std::max(most, watch.incarnations.total().published);
+  }
+  return most;
 }
 
 DeploymentFigures Monitor::figures() const {
   const std::lock_guard lock(mutex_);
   DeploymentFigures figures;
-  figures.deployment = deployment_.file.string();
-  for (const ServiceConfig& service : deployment_.services) {
-    const ServiceWatch& watch = services_.at(service.name);
-    ServiceFigures entry{service.name, service.kind, watch.method, watch.incarnations.total(), 0};
-    if (service.input.empty()) {
+  figures.deployment = file_;
+  for (const std::string& name : order_) {
+    const ServiceWatch& watch = services_.at(name);
+    if (!watch.settled) continue;
+    ServiceFigures entry{name, watch.kind, watch.method, watch.incarnations.total(), 0};
+    if (watch.source) {
       figures.scans_published += entry.report.published;
     } else {
       // What a killed process received after its last heartbeat shows in its results alone.
       entry.report.received = std::max(entry.report.received, entry.report.published);
     }
-    figures.services.push_back(std::move(entry));
+    if (watch.here) figures.services.push_back(std::move(entry));
   }
   for (const CornerWatch& watch : corners_) {
+    const bool was_there = std::any_of(services_.begin(), services_.end(), [&](const auto& entry) {
+      return entry.second.name == watch.name;
+    });
+    if (!was_there) continue;
     CornerFigures corner;
     corner.name = watch.name;
     corner.scans_delivered = watch.accounting.received();
@@ -215,7 +327,7 @@ void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout
   const auto all_ended = [&] {
     const std::lock_guard lock(mutex_);
     for (const std::string& name : names) {
-      if (!services_.at(name).ended) return false;
+      if (!ended(services_.at(name))) return false;
     }
     return true;
   };
@@ -233,9 +345,13 @@ void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout
 void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
   for (CornerWatch& watch : corners_) {
+    if (!is_present(watch.name)) continue;
     if (watch.accounting.received() > 0) {
-      watch.accounting.finish(services_.at(watch.source).incarnations.numbered_by_newest());
-    } else {
+      const ServiceWatch* source = writer_of(watch.source_trace);
+      // A source on another host that goes on without us: its further scans are no loss.
+      if (source == nullptr || (!source->here && !ended(*source))) continue;
+      watch.accounting.finish(source->incarnations.numbered_by_newest());
+    } else if (!watch.joined_late) {
       watch.lost_at_start = scans_published(watch.source);
     }
   }

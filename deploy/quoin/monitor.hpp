@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -27,26 +28,48 @@ namespace quoin::deploy {
 /// What a heartbeat says, in the terms of a report.
 [[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
-/// Listens to the heartbeats of a deployment and to what its corner services publish, in a thread
-/// of its own.
+/// A process as its newest heartbeat describes it.
+struct ProcessWatch {
+  int process_id = 0;
+  std::uint64_t incarnation = 0;
+  msg::ServiceState state = msg::ServiceState::STATE_STARTING;
+  std::string detail;
+};
+
+/// Listens to the heartbeats of a deployment and to what the corner services of one host's share of
+/// it publish, in a thread of its own. Services are called by their labels.
 class Monitor {
  public:
   /// Throws std::runtime_error when DDS refuses.
-  explicit Monitor(const Deployment& deployment);
+  Monitor(const Deployment& deployment, const std::string& host);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
+  /// Listens to the services of `wanted` that are new, too.
+  void add(const Deployment& wanted);
+  /// These are the services from now on: what is not among them has been removed, what has never
+  /// been is forgotten.
+  void settle(const Deployment& deployment);
+  /// What a process says of itself; nothing before its first heartbeat.
+  [[nodiscard]] std::optional<ProcessWatch> process(const std::string& name, int process_id) const;
+  /// That process was never part of the deployment.
+  void forget(const std::string& name, int process_id);
+  [[nodiscard]] bool removed(const std::string& name) const;
+  [[nodiscard]] runtime::Participant& participant() { return participant_; }
+
   /// Whether the service has ever been active.
   [[nodiscard]] bool was_active(const std::string& name) const;
+  /// The share's, as below.
   [[nodiscard]] bool all_were_active() const;
-  /// "x (waiting for 2 readers), y" for those that were never active.
+  /// "x (waiting for 2 readers), y" for those of the share that were never active.
   [[nodiscard]] std::string never_active() const;
-  /// Processes that report as a service of this deployment, by service.
+  /// Processes that report as a service of the share, by service.
   [[nodiscard]] std::map<std::string, std::set<int>> processes() const;
   [[nodiscard]] int newest_process(const std::string& name) const;
 
-  /// Everything but durations and restarts, which the supervisor knows.
+  /// Of the share, but for the scans of all sources; everything but durations and restarts, which
+  /// the supervisor knows.
   [[nodiscard]] DeploymentFigures figures() const;
 
   /// After all services have ended: waits up to `timeout` for the last heartbeats of `names`, takes
@@ -55,17 +78,24 @@ class Monitor {
 
  private:
   struct ServiceWatch {
+    std::string name;  // without a strength
     Incarnations incarnations;
-    std::map<std::uint64_t, int> process_ids;  // by incarnation
+    std::map<std::uint64_t, ProcessWatch> processes;  // by incarnation
+    std::string kind;
     std::string method;
+    bool source = false;
+    bool here = true;      // in the share
+    bool present = false;  // part of the deployment now
+    bool settled = false;  // has ever been
     bool was_active = false;
-    bool ended = false;
   };
   struct CornerWatch {
     std::string name;
     std::string source;
+    msg::StageTrace source_trace;  // of the last message
     std::unique_ptr<runtime::Reader<msg::Corners>> reader;
     runtime::ScanAccounting accounting;
+    bool joined_late = false;  // the scans before were for nobody
     std::uint64_t lost_at_start = 0;
     std::uint64_t corners = 0;
     QuantileHistogram sigma;
@@ -77,14 +107,21 @@ class Monitor {
   void take(const msg::ServiceStatus& status);
   void take(CornerWatch& watch, const msg::Corners& message);
   void account_for_the_end();
+  void listen_to_corners(const Deployment& deployment, const ServiceConfig& service);
+  [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
+  [[nodiscard]] static bool ended(const ServiceWatch& watch);
+  [[nodiscard]] bool is_present(const std::string& name) const;
   [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
 
-  const Deployment& deployment_;
+  std::string file_;
+  std::string host_;
   runtime::Participant participant_;
   runtime::Reader<msg::ServiceStatus> status_reader_;
   runtime::WaitSet wait_set_;
   mutable std::mutex mutex_;
-  std::map<std::string, ServiceWatch> services_;
+  std::map<std::string, ServiceWatch> services_;  // by label
+  std::vector<std::string> order_;                // of the services, removed ones last
+  std::map<int, std::uint64_t> forgotten_;        // process ids; up to what incarnation
   std::vector<CornerWatch> corners_;
   msg::ServiceStatus status_;
   msg::Corners message_;

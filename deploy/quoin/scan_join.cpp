@@ -9,6 +9,7 @@
 
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/keys/key_files.hpp"
 
 namespace quoin::deploy {
 
@@ -16,11 +17,6 @@ namespace {
 
 // Scans waiting for their other parts; a chain is never that far apart.
 constexpr std::size_t most_pending = 64;
-
-/// A reader that only looks must not slow the writer down, as a lossless one would.
-runtime::QosPreset onlooker_qos(const ServiceConfig& service) {
-  return runtime::qos_preset(service.qos == "lossless" ? "feature" : service.qos);
-}
 
 }  // namespace
 
@@ -43,13 +39,13 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
                    std::optional<std::uint64_t> scan)
     : chain_(chain),
       scan_(scan),
-      participant_({deployment.domain, deployment.name_space + "/quoin_draw"}),
+      participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
       segments_(participant_, output_topic(deployment, *chain.segmentation),
-                onlooker_qos(*chain.segmentation)),
+                runtime::onlooker_qos(*chain.segmentation)),
       lines_(participant_, output_topic(deployment, *chain.line_fitting),
-             onlooker_qos(*chain.line_fitting)),
+             runtime::onlooker_qos(*chain.line_fitting)),
       corners_(participant_, output_topic(deployment, *chain.corners),
-               onlooker_qos(*chain.corners)) {
+               runtime::onlooker_qos(*chain.corners)) {
   wait_set_.add(segments_);
   wait_set_.add(lines_);
   wait_set_.add(corners_);

@@ -1,29 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
-#include <idl/Status.h>
+#include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/heartbeats.hpp"
 #include "deploy/quoin/monitor.hpp"
+#include "deploy/quoin/network_options.hpp"
 #include "deploy/report/summary.hpp"
 #include "deploy/report/table.hpp"
-#include "services/runtime/participant.hpp"
-#include "services/runtime/reader.hpp"
+#include "services/runtime/clock.hpp"
 
 namespace quoin::deploy {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
 struct StatusOptions {
   std::string file;
@@ -32,91 +29,92 @@ struct StatusOptions {
   bool json = false;
 };
 
-using Heartbeats = std::map<std::string, msg::ServiceStatus>;
+/// A line of the table, and the heartbeat it is from; none for a service that was not heard.
+struct Row {
+  ServiceFigures figures;
+  std::string name_space;
+  std::optional<msg::ServiceStatus> status;
+};
 
-/// The newest heartbeat of each service; returns early once all `expected` ones have been heard.
-Heartbeats collect(int domain, const std::string& name_space, double wait,
-                   const std::optional<Deployment>& expected) {
-  runtime::Participant participant({domain, name_space + "/quoin_status"});
-  runtime::Reader<msg::ServiceStatus> reader(participant, status_topic(name_space),
-                                             runtime::QosPreset::state);
-  runtime::WaitSet wait_set;
-  wait_set.add(reader);
-  Heartbeats heartbeats;
-  const auto complete = [&] {
-    if (!expected) return false;
-    for (const ServiceConfig& service : expected->services) {
-      if (!heartbeats.contains(service.name)) return false;
-    }
-    return true;
-  };
-  msg::ServiceStatus status;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                           std::chrono::duration<double>(wait));
-  while (!complete() && Clock::now() < deadline) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
-    wait_set.wait(std::min(left, milliseconds(100)));
-    while (reader.take(status)) {
-      msg::ServiceStatus& newest = heartbeats[status.service()];
-      if (status.stamp() >= newest.stamp()) newest = status;
-    }
-  }
-  return heartbeats;
+Row row_of(const std::string& name_space, const msg::ServiceStatus& status) {
+  Row row{
+      {status.service(), status.kind(), status.method(), report_of(status), 0}, name_space, status};
+  row.figures.host = status.host();
+  row.figures.age = std::max(0.0, 1e-9 * static_cast<double>(runtime::now_ns() - status.stamp()));
+  return row;
 }
 
-ServiceFigures figures_of(const msg::ServiceStatus& status) {
-  return {status.service(), status.kind(), status.method(), report_of(status), 0};
-}
-
-DeploymentFigures figures_of(const Heartbeats& heartbeats,
-                             const std::optional<Deployment>& expected) {
-  DeploymentFigures figures;
-  if (!expected) {
-    for (const auto& [name, status] : heartbeats) figures.services.push_back(figures_of(status));
-    return figures;
-  }
-  for (const ServiceConfig& service : expected->services) {
-    const auto heard = heartbeats.find(service.name);
-    if (heard != heartbeats.end()) {
-      figures.services.push_back(figures_of(heard->second));
+/// The services of the deployment, then those of others; of all namespaces when there is no
+/// deployment and `one_namespace` is false.
+std::vector<Row> collect(const Deployment& deployment, bool one_namespace, double wait) {
+  HeartbeatListener listener(deployment, "quoin_status", !one_namespace);
+  listener.listen(wait, [&] {
+    const auto newest = listener.newest();
+    for (const ServiceConfig& service : deployment.services) {
+      if (!newest.contains({deployment.name_space, label(service)})) return false;
+    }
+    return !deployment.services.empty();
+  });
+  auto newest = listener.newest();
+  std::vector<Row> rows;
+  for (const ServiceConfig& service : deployment.services) {
+    const auto heard = newest.find({deployment.name_space, label(service)});
+    if (heard != newest.end()) {
+      rows.push_back(row_of(deployment.name_space, heard->second.newest));
+      newest.erase(heard);
     } else {
-      ServiceFigures silent{service.name, service.kind, service.method, {}, 0};
-      silent.report.state = "silent";
-      figures.services.push_back(silent);
+      Row silent{{label(service), service.kind, service.method, {}, 0}, deployment.name_space, {}};
+      silent.figures.report.state = "silent";
+      silent.figures.host = service.host;
+      rows.push_back(std::move(silent));
     }
   }
-  return figures;
+  for (const auto& [key, heard] : newest) rows.push_back(row_of(key.first, heard.newest));
+  // A name is enough where there is one namespace.
+  for (Row& row : rows) {
+    if (row.name_space == rows.front().name_space && row.name_space == rows.back().name_space) {
+      continue;
+    }
+    row.figures.name = row.name_space + "/" + row.figures.name;
+  }
+  return rows;
 }
 
-void print(const DeploymentFigures& figures, const Heartbeats& heartbeats) {
-  for (const std::string& text : table_lines(figures, std::string::npos)) std::cout << text << '\n';
-  for (const auto& [name, status] : heartbeats) {
-    if (!status.detail().empty()) std::cout << name << ": " << status.detail() << '\n';
-    for (const std::string& mismatch : status.incompatible_qos()) {
+void print(const std::vector<Row>& rows) {
+  std::vector<ServiceFigures> services;
+  for (const Row& row : rows) services.push_back(row.figures);
+  for (const std::string& text : status_lines(services)) std::cout << text << '\n';
+  for (const Row& row : rows) {
+    if (!row.status) continue;
+    const std::string& name = row.figures.name;
+    if (!row.status->detail().empty()) std::cout << name << ": " << row.status->detail() << '\n';
+    for (const std::string& mismatch : row.status->incompatible_qos()) {
       std::cout << name << ": incompatible QoS: " << mismatch << '\n';
     }
-    for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
+    for (const msg::Diagnostic& diagnostic : row.status->diagnostics()) {
       std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
     }
   }
 }
 
-void print_json(const DeploymentFigures& figures, const Heartbeats& heartbeats) {
+void print_json(const std::vector<Row>& rows) {
   nlohmann::ordered_json services = nlohmann::ordered_json::object();
-  for (const ServiceFigures& service : figures.services) {
-    auto object = service_summary(service);
+  for (const Row& row : rows) {
+    auto object = service_summary(row.figures);
     object.erase("restarts");  // known to the supervisor only
-    const auto heard = heartbeats.find(service.name);
-    if (heard != heartbeats.end()) {
-      const msg::ServiceStatus& status = heard->second;
+    object["namespace"] = row.name_space;
+    if (row.status) {
+      const msg::ServiceStatus& status = *row.status;
       object["detail"] = status.detail();
       object["rate_hz"] = status.rate();
       object["host"] = status.host();
       object["pid"] = status.pid();
       object["incarnation"] = status.incarnation();
       object["stamp"] = status.stamp();
+      object["age_s"] = row.figures.age;
       object["matched_inputs"] = status.matched_inputs();
       object["matched_outputs"] = status.matched_outputs();
+      object["control_dropped"] = status.control_dropped();
       object["incompatible_qos"] = status.incompatible_qos();
       auto diagnostics = nlohmann::ordered_json::object();
       for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
@@ -124,33 +122,33 @@ void print_json(const DeploymentFigures& figures, const Heartbeats& heartbeats) 
       }
       object["diagnostics"] = diagnostics;
     }
-    services[service.name] = object;
+    services[row.figures.name] = object;
   }
   const nlohmann::ordered_json object{{"services", services}};
   std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }
 
-int run(const StatusOptions& options) {
-  std::optional<Deployment> deployment;
-  if (!options.file.empty()) deployment = load_deployment(options.file);
-  const int domain = deployment ? deployment->domain : options.network.domain;
-  const std::string& name_space = deployment ? deployment->name_space : options.network.name_space;
-  const Heartbeats heartbeats = collect(domain, name_space, options.wait, deployment);
-  const DeploymentFigures figures = figures_of(heartbeats, deployment);
+int run(const StatusOptions& options, bool one_namespace) {
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  const std::vector<Row> rows = collect(deployment, one_namespace, options.wait);
   if (options.json) {
-    print_json(figures, heartbeats);
-  } else if (!figures.services.empty()) {
-    print(figures, heartbeats);
+    print_json(rows);
+  } else if (!rows.empty()) {
+    print(rows);
   }
-  if (heartbeats.empty()) {
-    std::cerr << "no service of namespace '" << name_space << "' reports in domain " << domain
-              << "; is it running?\n";
-    return exit_failure;
+  bool healthy = true;
+  bool heard = false;
+  for (const Row& row : rows) {
+    const std::string& state = row.figures.report.state;
+    heard = heard || row.status.has_value();
+    healthy = healthy && state != "silent" && state != "failed";
   }
-  for (const ServiceFigures& service : figures.services) {
-    if (service.report.state == "silent" || service.report.state == "failed") return exit_failure;
+  if (!heard) {
+    std::cerr << "no service"
+              << (one_namespace ? " of namespace '" + deployment.name_space + "'" : "")
+              << " reports in domain " << deployment.domain << "; is it running?\n";
   }
-  return exit_ok;
+  return heard && healthy ? exit_ok : exit_failure;
 }
 
 }  // namespace
@@ -158,15 +156,17 @@ int run(const StatusOptions& options) {
 Command add_status(CLI::App& app) {
   CLI::App* line = app.add_subcommand(
       "status",
-      "Show what the services of a running deployment report; fails when one is silent or failed");
+      "Show what the running services report, on this host and on others; fails when one is silent "
+      "or failed");
   const auto options = std::make_shared<StatusOptions>();
   CLI::Option* file = line->add_option("file", options->file, "Deployment file (YAML)");
   add_network_options(*line, options->network, file);
+  const CLI::Option* name_space = line->get_option("--namespace");
   line->add_option("--wait", options->wait, "How long to listen [s]")
       ->capture_default_str()
       ->check(more_than_zero());
   line->add_flag("--json", options->json, "As a JSON object");
-  return {line, [options] { return run(*options); }};
+  return {line, [=] { return run(*options, file->count() + name_space->count() > 0); }};
 }
 
 }  // namespace quoin::deploy

@@ -2,19 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "deploy/apply/file_watch.hpp"
 #include "deploy/deployment/deployment.hpp"
-#include "deploy/deployment/kinds.hpp"
+#include "deploy/quoin/apply_requests.hpp"
 #include "deploy/quoin/commands.hpp"
+#include "deploy/quoin/composition.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/exclusive.hpp"
+#include "deploy/quoin/host.hpp"
 #include "deploy/quoin/launch.hpp"
 #include "deploy/quoin/monitor.hpp"
+#include "deploy/quoin/requester.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "deploy/report/summary.hpp"
 #include "deploy/report/table.hpp"
@@ -29,9 +34,11 @@ using std::chrono::milliseconds;
 
 struct UpOptions {
   std::string file;
+  std::string host;
   double duration = 0.0;  // [s]; 0: no end
   bool json = false;
   bool quiet = false;
+  bool watch = false;
 };
 
 Display::Mode display_mode(const UpOptions& options) {
@@ -44,33 +51,37 @@ class Run {
  public:
   explicit Run(const UpOptions& options)
       : options_(options),
-        deployment_(load_deployment(options.file)),
-        exclusive_(deployment_),
-        plans_(process_plans(deployment_,
-                             [](const ServiceConfig& service) {
-                               return find_kind(service.kind)->output == MessageType::corners ? 1
-                                                                                              : 0;
-                             })),
-        monitor_(deployment_),
+        watch_(options.file),
+        composition_(options.file, options.host),
+        exclusive_(composition_.deployment()),
+        monitor_(composition_.deployment(), composition_.host()),
+        requester_(monitor_.participant(), composition_.deployment().name_space),
+        apply_requests_(monitor_.participant(), composition_.deployment().name_space,
+                        supervisor_name(composition_.host())),
         display_(display_mode(options)),
-        supervisor_(
-            plans_,
-            {.output = [this](const std::string& name,
-                              const std::string& line) { display_.log(name, line); },
-             .event = [this](
-                          const std::string& name,
-                          const std::string& text) { display_.log("quoin", name + ": " + text); },
-             .was_active = [this](const std::string& name) { return monitor_.was_active(name); }}) {
-  }
+        supervisor_(composition_.plans(),
+                    {.output = [this](const std::string& name,
+                                      const std::string& line) { log(name, line); },
+                     .event =
+                         [this](const std::string& name, const std::string& text) {
+                           display_.log("quoin", name + ": " + text);
+                         },
+                     .was_active =
+                         [this](const std::string& name) {
+                           return name == discovery_process || monitor_.was_active(name);
+                         }}) {}
 
   int run() {
     begun_ = Clock::now();
     supervisor_.start();
     while (!supervisor_.ended()) {
-      if (supervisor_.poll(milliseconds(50), signals_.descriptor()))
-        handle_signals(signals_.take());
-      observe();
-      if (!supervisor_.ended()) display_.show(figures());
+      look(milliseconds(50));
+      if (supervisor_.stopping()) continue;
+      if (auto request = apply_requests_.take(composition_.deployment().file.string())) {
+        answer(*request);
+      } else if (options_.watch && watch_.changed()) {
+        apply({.file = options_.file}, [](const Plan&) {});
+      }
     }
     monitor_.finish(orderly_ended(), milliseconds(1000));
     const DeploymentFigures last = figures();
@@ -85,6 +96,64 @@ class Run {
 
  private:
   void say(const std::string& text) { display_.log("quoin", text); }
+
+  void log(const std::string& name, const std::string& line) {
+    last_lines_[name] = line;
+    display_.log(name, line);
+  }
+
+  /// Lets everything go on for up to `timeout`; false when it is to stop.
+  bool look(milliseconds timeout) {
+    if (supervisor_.poll(timeout, signals_.descriptor())) handle_signals(signals_.take());
+    observe();
+    if (!supervisor_.ended()) display_.show(figures());
+    return !supervisor_.stopping();
+  }
+
+  ApplyOutcome apply(const ApplyRequest& request, const std::function<void(const Plan&)>& on_plan) {
+    last_lines_.clear();
+    const Changeover::World world{
+        .supervisor = supervisor_,
+        .monitor = monitor_,
+        .requester = requester_,
+        .pump =
+            [this] {
+              apply_requests_.refuse();
+              return look(milliseconds(2));
+            },
+        .last_line = [this](const std::string& name) { return last_lines_[name]; }};
+    const ApplyOutcome outcome = composition_.apply(world, request, [&](const Plan& plan) {
+      if (!request.dry_run) say("applying " + request.file.string());
+      for (const Change& change : plan.changes) {
+        if (!request.dry_run && change.action != ChangeAction::keep) say(to_text(change));
+      }
+      on_plan(plan);
+    });
+    if (!outcome.accepted) {
+      say(request.file.string() + " was not applied" +
+          (outcome.rolled_back ? "; all is as it was: " : ": ") + outcome.detail);
+    } else if (!request.dry_run) {
+      say(request.file.string() + " is applied");
+    }
+    return outcome;
+  }
+
+  void answer(const msg::ControlRequest& request) {
+    const ApplyOutcome outcome = apply(apply_request(request), [&](const Plan& plan) {
+      if (request.dry_run()) return;
+      msg::ControlReply reply;
+      reply.accepted(true);
+      reply.pending(true);
+      reply.steps(steps_of(plan));
+      apply_requests_.reply(request, reply);
+    });
+    msg::ControlReply reply;
+    reply.accepted(outcome.accepted);
+    reply.detail(outcome.detail);
+    reply.rolled_back(outcome.rolled_back);
+    reply.steps(outcome.steps);
+    apply_requests_.reply(request, reply);
+  }
 
   void handle_signals(int count) {
     while (count-- > 0) {
@@ -134,8 +203,8 @@ class Run {
       for (const int process : processes) {
         if (supervisor_.started(process) || !strangers_.insert(process).second) continue;
         say("process " + std::to_string(process) + " also runs as service '" + name +
-            "' of namespace '" + deployment_.name_space + "' in domain " +
-            std::to_string(deployment_.domain) +
+            "' of namespace '" + composition_.deployment().name_space + "' in domain " +
+            std::to_string(composition_.deployment().domain) +
             "; figures are mixed. Give one of the two another namespace or domain");
       }
     }
@@ -150,6 +219,11 @@ class Run {
     DeploymentFigures figures = monitor_.figures();
     figures.duration = duration(Clock::now());
     for (ServiceFigures& service : figures.services) {
+      if (monitor_.removed(service.name)) {
+        service.report.state = "removed";
+        service.report.rate = 0.0;
+        continue;
+      }
       const ProcessFigures process = supervisor_.figures(service.name);
       service.restarts = process.restarts;
       std::string& state = service.report.state;
@@ -174,25 +248,30 @@ class Run {
 
   [[nodiscard]] std::vector<std::string> orderly_ended() const {
     std::vector<std::string> names;
-    for (const ProcessPlan& plan : plans_) {
-      if (supervisor_.figures(plan.name).phase == ProcessPhase::finished)
-        names.push_back(plan.name);
+    for (const ServiceConfig& service : composition_.deployment().services) {
+      if (service.host == composition_.host() &&
+          supervisor_.figures(label(service)).phase == ProcessPhase::finished) {
+        names.push_back(label(service));
+      }
     }
     return names;
   }
 
   UpOptions options_;
-  Deployment deployment_;
+  FileWatch watch_;  // before the file is read
+  Composition composition_;
   Exclusive exclusive_;
-  std::vector<ProcessPlan> plans_;
   Signals signals_;  // before the threads of the monitor
   Monitor monitor_;
+  Requester requester_;
+  ApplyRequests apply_requests_;
   Display display_;
   Supervisor supervisor_;  // last: what it calls outlives it
   Clock::time_point begun_;
   std::optional<Clock::time_point> active_since_;
   std::optional<Clock::time_point> active_until_;
   std::set<int> strangers_;
+  std::map<std::string, std::string> last_lines_;  // of the services, since the last apply
   bool stop_asked_ = false;
   bool start_warned_ = false;
   int exit_code_ = exit_ok;
@@ -205,11 +284,15 @@ Command add_up(CLI::App& app) {
       app.add_subcommand("up", "Start a deployment and watch over it until it ends or Ctrl-C");
   const auto options = std::make_shared<UpOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_option("--host", options->host,
+                   "Start the share of this host; else of the one called like this machine");
   line->add_option("--duration", options->duration,
                    "Stop after this time [s], counted from when all are active")
       ->check(more_than_zero());
   line->add_flag("--json", options->json,
                  "Print the final figures as a JSON object; progress goes to standard error");
+  line->add_flag("--watch", options->watch,
+                 "Apply the file whenever it changes; with errors in it nothing changes");
   line->add_flag("--quiet", options->quiet, "Show log lines only");
   return {line, [options] { return Run(*options).run(); }};
 }

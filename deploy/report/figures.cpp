@@ -16,7 +16,8 @@ std::uint64_t Incarnations::numbered_by_newest() const {
   if (!reports_.empty()) newest = reports_.rbegin()->first;
   if (!published_at_least_.empty()) newest = std::max(newest, published_at_least_.rbegin()->first);
   const auto report = reports_.find(newest);
-  return published_by(newest) + (report == reports_.end() ? 0 : report->second.lost);
+  if (report == reports_.end()) return published_by(newest);
+  return report->second.first_number + published_by(newest) + report->second.lost;
 }
 
 ServiceReport Incarnations::total() const {

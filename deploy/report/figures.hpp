@@ -16,6 +16,7 @@ struct ServiceReport {
       state;  ///< starting, active, finished, stopped or failed; what the supervisor knows else
   std::string detail;  ///< reason of the state
   std::uint64_t received = 0;
+  std::uint64_t first_number = 0;  ///< of a source: number of the first scan
   std::uint64_t published = 0;
   std::uint64_t lost = 0;
   std::map<std::string, std::uint64_t> losses;  ///< by cause
@@ -41,8 +42,11 @@ class Incarnations {
   void published_at_least(std::uint64_t incarnation, std::uint64_t count) {
     published_at_least_[incarnation] = std::max(published_at_least_[incarnation], count);
   }
+  /// Takes back what is known of a process that never did anything.
+  void forget(std::uint64_t incarnation) { reports_.erase(incarnation); }
   [[nodiscard]] ServiceReport total() const;
-  /// Scans that the newest process of a source has numbered: published, or lost in publishing.
+  /// Scans of a source up to now by the numbers of its newest process, which may have taken over
+  /// from another one: published, or lost in publishing.
   [[nodiscard]] std::uint64_t numbered_by_newest() const;
 
  private:
@@ -58,6 +62,8 @@ struct ServiceFigures {
   std::string method;  ///< "" for kinds without methods
   ServiceReport report;
   std::uint64_t restarts = 0;
+  std::string host = {};  ///< where it runs, as far as that is known
+  double age = -1.0;      ///< [s] of its last heartbeat; negative: none was heard
 };
 
 /// What arrived at the end of a chain, seen from outside.

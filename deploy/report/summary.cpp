@@ -12,13 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// To four digits: these are figures to read and compare, and their own error is larger.
-double rounded(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return 0.0;
-  const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));
-  return std::round(value * scale) / scale;
-}
-
 /// An object even when it is empty.
 Json counts(const std::map<std::string, std::uint64_t>& values) {
   Json json = Json::object();
@@ -37,6 +30,12 @@ Json corner_summary(const CornerFigures& corner) {
 }
 
 }  // namespace
+
+double rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return 0.0;
+  const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
 
 Json service_summary(const ServiceFigures& service) {
   const ServiceReport& report = service.report;

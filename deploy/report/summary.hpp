@@ -8,6 +8,9 @@
 
 namespace quoin::deploy {
 
+/// To four digits: these are figures to read and compare, and their own error is larger.
+[[nodiscard]] double rounded(double value);
+
 /// The figures as the JSON object that `quoin up --json` ends with. The names in it are an
 /// interface: they may be added to, not changed.
 [[nodiscard]] nlohmann::ordered_json summary(const DeploymentFigures& figures);

@@ -12,11 +12,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-std::string milliseconds_pair(double first, double second) {
-  if (first <= 0.0 && second <= 0.0) return "-";
-  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
-}
-
 std::string kind_and_method(const ServiceFigures& service) {
   return service.method.empty() ? service.kind : service.kind + "/" + service.method;
 }
@@ -27,7 +22,7 @@ Row service_row(const ServiceFigures& service) {
           std::to_string(report.received), std::to_string(report.published),
           std::to_string(report.lost),
           // A source's results are the scans themselves.
-          report.received == 0 ? "-" : milliseconds_pair(report.latency_p50, report.latency_p99),
+          report.received == 0 ? "-" : milli_pair(report.latency_p50, report.latency_p99),
           fixed(static_cast<double>(report.resident_memory) / (1024.0 * 1024.0), 1),
           std::to_string(service.restarts)};
 }
@@ -61,6 +56,11 @@ void append_table(const std::vector<Row>& rows, std::size_t left, std::size_t wi
   }
 }
 
+std::string milli_pair(double first, double second) {
+  if (first <= 0.0 && second <= 0.0) return "-";
+  return fixed(first * 1e3, 2) + " / " + fixed(second * 1e3, 2);
+}
+
 std::string fixed(double value, int digits) {
   std::array<char, 64> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
@@ -81,6 +81,20 @@ std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size
                 "median ellipse area [mm^2]"}});
   for (const CornerFigures& corner : figures.corners) rows.push_back(corner_row(corner));
   append_table(rows, 1, width, lines);
+  return lines;
+}
+
+std::vector<std::string> status_lines(const std::vector<ServiceFigures>& services) {
+  std::vector<Row> rows{{"service", "host", "kind/method", "state", "Hz", "received", "published",
+                         "lost", "p50 / p99 [ms]", "RSS MiB", "age [s]"}};
+  for (const ServiceFigures& service : services) {
+    Row row = service_row(service);
+    row.insert(row.begin() + 1, service.host.empty() ? "-" : service.host);
+    row.back() = service.age < 0.0 ? "-" : fixed(service.age, 1);  // instead of the restarts
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> lines;
+  append_table(rows, 4, std::string::npos, lines);
   return lines;
 }
 

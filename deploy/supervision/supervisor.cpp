@@ -22,11 +22,99 @@ std::string seconds_text(milliseconds time) {
 
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
     : callbacks_(std::move(callbacks)) {
-  for (ProcessPlan& plan : plans) {
-    Child child;
-    child.plan = std::move(plan);
-    children_.push_back(std::move(child));
+  for (ProcessPlan& plan : plans) insert(std::move(plan));
+}
+
+Supervisor::Child& Supervisor::insert(ProcessPlan plan) {
+  Child& child = children_.emplace_back();
+  child.key = ++last_key_;
+  child.plan = std::move(plan);
+  return child;
+}
+
+Supervisor::Child& Supervisor::child(int key) {
+  for (Child& candidate : children_) {
+    if (candidate.key == key) return candidate;
   }
+  throw std::out_of_range("no process with key " + std::to_string(key));
+}
+
+const Supervisor::Child& Supervisor::child(int key) const {
+  return const_cast<Supervisor*>(this)->child(key);
+}
+
+const Supervisor::Child* Supervisor::find(const std::string& name) const {
+  const Child* found = nullptr;
+  for (const Child& candidate : children_) {
+    if (candidate.plan.name != name || candidate.standing == Standing::trial) continue;
+    if (found == nullptr || found->standing == Standing::retired) found = &candidate;
+  }
+  return found;
+}
+
+int Supervisor::add(ProcessPlan plan) {
+  Child& added = insert(std::move(plan));
+  added.standing = Standing::trial;
+  try {
+    launch(added);
+  } catch (...) {
+    children_.pop_back();
+    throw;
+  }
+  return added.key;
+}
+
+void Supervisor::adopt(int key, ProcessPlan plan) {
+  Child& adopted = child(key);
+  adopted.standing = Standing::regular;
+  adopted.first = false;  // it has proved itself
+  adopted.plan = std::move(plan);
+  if (!adopted.process && !stopping_) {
+    adopted.figures.phase = ProcessPhase::pausing;  // died just before
+    adopted.restart_at = Clock::now();
+  }
+}
+
+void Supervisor::replan(ProcessPlan plan) {
+  for (Child& planned : children_) {
+    if (planned.standing == Standing::regular && planned.plan.name == plan.name) {
+      planned.plan = plan;
+    }
+  }
+}
+
+void Supervisor::retire(int key, bool terminate) {
+  Child& retired = child(key);
+  retired.never_adopted = retired.standing == Standing::trial;
+  retired.standing = Standing::retired;
+  retired.told_to_stop = true;
+  if (!retired.process) {
+    retired.figures.phase = ProcessPhase::finished;
+    return;
+  }
+  if (terminate) retired.process->send_signal(SIGTERM);
+  retired.kill_at = Clock::now() + patience;
+}
+
+void Supervisor::kill(int key) {
+  const Child& killed = child(key);
+  if (killed.process) killed.process->send_signal(SIGKILL);
+}
+
+bool Supervisor::running(int key) const {
+  return std::any_of(children_.begin(), children_.end(), [key](const Child& candidate) {
+    return candidate.key == key && candidate.process;
+  });
+}
+
+int Supervisor::process_id(int key) const { return child(key).figures.process_id; }
+
+std::optional<ProcessEnd> Supervisor::end_of_trial(int key) const { return child(key).end; }
+
+std::optional<int> Supervisor::key_of(const std::string& name) const {
+  const Child* found = find(name);
+  if (found == nullptr || found->standing == Standing::retired) return std::nullopt;
+  return found->key;
 }
 
 void Supervisor::start() {
@@ -54,7 +142,26 @@ bool Supervisor::poll(milliseconds timeout, int extra_descriptor) {
   const bool extra_ready = (descriptors_.front().revents & POLLIN) != 0;
   for (Child& child : children_) collect(child);
   advance();
+  forget_the_retired();
   return extra_ready;
+}
+
+// What is known of them goes to the account of the process that took their place. One that never
+// had a place, or whose service is gone, leaves nothing but the latter's figures.
+void Supervisor::forget_the_retired() {
+  std::set<int> forgotten;
+  for (const Child& retired : children_) {
+    if (retired.standing != Standing::retired || retired.process) continue;
+    if (retired.never_adopted) forgotten.insert(retired.key);
+    for (Child& successor : children_) {
+      if (successor.standing != Standing::regular || successor.plan.name != retired.plan.name) {
+        continue;
+      }
+      successor.figures.restarts += retired.figures.restarts;
+      forgotten.insert(retired.key);
+    }
+  }
+  std::erase_if(children_, [&](const Child& child) { return forgotten.contains(child.key); });
 }
 
 void Supervisor::collect(Child& child) {
@@ -71,10 +178,18 @@ void Supervisor::judge(Child& child, const ProcessEnd& end) {
   const bool was_active = !child.first || callbacks_.was_active(child.plan.name);
   child.first = false;
   // A process that was only just started has no handler for SIGTERM yet.
+  if (child.standing == Standing::trial && !stopping_) {
+    child.end = end;
+    child.figures.phase = ProcessPhase::dead;
+    return;
+  }
   const bool orderly =
       end.exited_with(exit_ok) || (child.told_to_stop && end.by_signal && end.value == SIGTERM);
   child.figures.phase = orderly ? ProcessPhase::finished : ProcessPhase::dead;
-  if (orderly) {
+  if (child.standing == Standing::retired) {
+    child.figures.phase = ProcessPhase::finished;
+    if (!orderly) callbacks_.event(child.plan.name, "ended with " + describe(end));
+  } else if (orderly) {
     if (!child.told_to_stop && !child.plan.source) {
       callbacks_.event(child.plan.name, "ended by itself; not started again");
     }
@@ -103,7 +218,7 @@ void Supervisor::die(Child& child, const ProcessEnd& end) {
     callbacks_.event(child.plan.name, text);
     fail(exit_failure);
   } else if (child.plan.restart) {
-    const milliseconds pause = child.backoff.next(lifetime);
+    const milliseconds pause = std::max(child.plan.least_pause, child.backoff.next(lifetime));
     child.restart_at = Clock::now() + pause;
     child.figures.phase = ProcessPhase::pausing;
     callbacks_.event(child.plan.name, text + "; starting again in " + seconds_text(pause));
@@ -119,6 +234,8 @@ void Supervisor::advance() {
     stop_next_level(now);
     return;
   }
+  kill_the_late(now);
+  bool has_source = false;  // else somebody on another host decides when it is over
   bool source_left = false;
   for (Child& child : children_) {
     if (child.figures.phase == ProcessPhase::pausing && now >= child.restart_at) {
@@ -130,11 +247,23 @@ void Supervisor::advance() {
         callbacks_.event(child.plan.name, std::string("cannot be started: ") + error.what());
       }
     }
+    if (child.standing == Standing::retired) continue;
+    has_source = has_source || child.plan.source;
     source_left =
         source_left || (child.plan.source && (child.figures.phase == ProcessPhase::running ||
                                               child.figures.phase == ProcessPhase::pausing));
   }
-  if (!source_left) request_stop();
+  if (has_source && !source_left) request_stop();
+}
+
+void Supervisor::kill_the_late(Clock::time_point now) {
+  for (Child& child : children_) {
+    if (!child.process || now < child.kill_at) continue;
+    child.kill_at = Clock::time_point::max();
+    callbacks_.event(child.plan.name,
+                     "did not stop within " + seconds_text(patience) + "; killing it");
+    child.process->send_signal(SIGKILL);
+  }
 }
 
 void Supervisor::request_stop() {
@@ -194,9 +323,7 @@ bool Supervisor::ended() const {
 }
 
 ProcessFigures Supervisor::figures(const std::string& name) const {
-  for (const Child& child : children_) {
-    if (child.plan.name == name) return child.figures;
-  }
+  if (const Child* found = find(name)) return found->figures;
   throw std::out_of_range("no process of service '" + name + "'");
 }
 
@@ -205,6 +332,7 @@ milliseconds Supervisor::time_to_next_action(milliseconds limit) const {
   auto next = now + limit;
   for (const Child& child : children_) {
     if (child.figures.phase == ProcessPhase::pausing) next = std::min(next, child.restart_at);
+    if (child.process && !stopping_) next = std::min(next, child.kill_at);
   }
   if (stopping_ && level_ >= 0) next = std::min(next, level_deadline_);
   // Rounded up: waking a little early would spin.

@@ -9,8 +9,17 @@ namespace quoin::runtime {
 // Results that a stage made between the last message and a new one, without the new one.
 struct ScanAccounting::Made {
   std::uint64_t count = 0;
-  bool restarted = false;  // count is a lower bound: the end of the old process is not known
+  bool restarted = false;  // only estimated: the end of the old process is not known
 };
+
+// Whether a stage is another process than before, which lived already while the old one did.
+bool ScanAccounting::took_over(const msg::Header& header, std::size_t position) const {
+  const msg::StageTrace& now = header.trace()[position];
+  if (position >= previous_->stages.size()) return false;
+  const StagePosition& then = previous_->stages[position];
+  return then.service == now.service() && then.incarnation != now.incarnation() &&
+         static_cast<std::int64_t>(now.incarnation()) < then.published;
+}
 
 ScanAccounting::Made ScanAccounting::made_since(const msg::Header& header,
                                                 std::size_t position) const {
@@ -21,7 +30,8 @@ ScanAccounting::Made ScanAccounting::made_since(const msg::Header& header,
       return {now.index() > then.index ? now.index() - then.index - 1 : 0, false};
     }
   }
-  return {now.index(), true};
+  // What stands by makes results all the time, but nobody took them.
+  return {took_over(header, position) ? 0 : now.index(), true};
 }
 
 std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool same_source) const {
@@ -33,6 +43,12 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
     if (made[i].restarted) made[i].count = std::max(made[i].count, made[i + 1].count);
   }
   const std::uint64_t first = same_source ? previous_->sequence_number + 1 : 0;
+  // What took the place of another stage may have made more, but not of these scans.
+  std::uint64_t given = header.sequence_number() - first;
+  for (Made& stage : made) {
+    if (stage.restarted) stage.count = std::min(stage.count, given);
+    given = stage.count;
+  }
   const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
     if (made_of_it >= had) return;
     losses.push_back({first, header.sequence_number() - 1, had - made_of_it, stage});
@@ -46,9 +62,19 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
   return losses;
 }
 
+// Whether the source is the same process as before, or one that took over from it: a restarted one
+// begins again with scan 0.
+bool ScanAccounting::continues_numbers(const msg::Header& header) const {
+  const msg::StageTrace& source = header.trace()[0];
+  if (source.incarnation() == previous_->stages[0].incarnation) return true;
+  return header.sequence_number() >= source.index() &&
+         header.sequence_number() - source.index() > previous_->sequence_number;
+}
+
 // The usual case: the next result of every stage.
 bool ScanAccounting::follows(const msg::Header& header) const {
   return header.sequence_number() == previous_->sequence_number + 1 &&
+         header.sensor() == previous_->sensor &&
          std::equal(header.trace().begin(), header.trace().end(), previous_->stages.begin(),
                     previous_->stages.end(),
                     [](const msg::StageTrace& now, const StagePosition& then) {
@@ -59,6 +85,7 @@ bool ScanAccounting::follows(const msg::Header& header) const {
 
 void ScanAccounting::remember(const msg::Header& header) {
   if (!previous_) previous_ = Previous{};
+  previous_->sensor = header.sensor();
   previous_->sequence_number = header.sequence_number();
   previous_->stages.resize(header.trace().size());
   for (std::size_t i = 0; i < header.trace().size(); ++i) {
@@ -66,21 +93,24 @@ void ScanAccounting::remember(const msg::Header& header) {
     previous_->stages[i].service = trace.service();
     previous_->stages[i].incarnation = trace.incarnation();
     previous_->stages[i].index = trace.index();
+    previous_->stages[i].published = trace.published();
   }
 }
 
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   std::vector<Loss> losses;
+  last_was_duplicate_ = false;
   if (header.trace().empty()) return losses;  // not from a stage of this project
   if (!previous_) {
     first_sequence_ = header.sequence_number();
-  } else if (!follows(header)) {
-    const bool same_source = previous_->stages[0].incarnation == header.trace()[0].incarnation();
+  } else if (header.sensor() == previous_->sensor && !follows(header)) {
+    const bool same_source = continues_numbers(header);
     if (same_source && header.sequence_number() <= previous_->sequence_number) {
       ++duplicates_;
+      last_was_duplicate_ = true;
       return losses;
     }
-    losses = losses_before(header, same_source);
+    if (same_source || !took_over(header, 0)) losses = losses_before(header, same_source);
     for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
   }
   ++received_;

@@ -24,17 +24,24 @@ struct Loss {
 /// (StageTrace.index), so the difference of two headers says how many results each stage made of
 /// the scans in between: the first stage that made fewer than its predecessor lost the others.
 ///
-/// Exact as long as the stages live. When one is restarted, scans between its last result that
-/// arrived and its first new one are put to its account.
+/// Exact as long as the stages live. When one is restarted, or another takes its place or takes
+/// over from it, scans missing between the last result of the one and the first of the other are
+/// put to its account. When another instance of a source takes over, which numbers scans of its
+/// own, nothing is counted as lost: of what the two saw nobody can say whether it was the same.
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
-  /// the first message are not lost: nobody was listening.
+  /// the first message of a sensor are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
+
+  /// From here to the next message nobody listens: nothing in between is lost.
+  void interrupt() { previous_.reset(); }
 
   /// Losses behind the last message, when the source is known to have numbered `scans` scans.
   std::vector<Loss> finish(std::uint64_t scans);
 
+  /// Whether the last message was of a scan that had been received before, or was older.
+  [[nodiscard]] bool last_was_duplicate() const { return last_was_duplicate_; }
   [[nodiscard]] std::uint64_t received() const { return received_; }
   [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }
   [[nodiscard]] std::uint64_t lost() const;
@@ -51,13 +58,17 @@ class ScanAccounting {
     std::string service;
     std::uint64_t incarnation = 0;
     std::uint64_t index = 0;
+    std::int64_t published = 0;  // [ns since the Unix epoch]
   };
   struct Previous {
+    std::string sensor;
     std::uint64_t sequence_number = 0;
     std::vector<StagePosition> stages;
   };
   struct Made;
 
+  [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
+  [[nodiscard]] bool took_over(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] bool follows(const msg::Header& header) const;
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;
@@ -67,6 +78,7 @@ class ScanAccounting {
   std::optional<std::uint64_t> first_sequence_;
   std::uint64_t received_ = 0;
   std::uint64_t duplicates_ = 0;
+  bool last_was_duplicate_ = false;
   std::map<std::string, std::uint64_t> lost_by_stage_;
 };
 

@@ -6,6 +6,7 @@
 #include <idl/Common.h>
 
 #include "services/runtime/clock.hpp"
+#include "services/runtime/pulse.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/writer.hpp"
 
@@ -13,13 +14,15 @@ namespace quoin::runtime {
 
 /// Stamps `trace` (which is part of `message`) and writes the message. With the lossless preset the
 /// write is tried again while slow readers keep the history full, but no longer than three seconds
-/// once the stop is requested; else it never waits. False when the message was not written.
+/// once the stop is requested; else it never waits. False when the message was not written. `pulse`
+/// is that of the writing thread, which is alive while it waits for readers.
 template <class T>
 bool deliver(Writer<T>& writer, const T& message, msg::StageTrace& trace, bool lossless,
-             const StopSignal& stop) {
+             const StopSignal& stop, Pulse& pulse) {
   using std::chrono::steady_clock;
   auto deadline = steady_clock::time_point::max();
   while (true) {
+    pulse.beat();
     trace.published(now_ns());
     if (writer.write(message)) return true;
     if (!lossless) return false;

@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/heartbeat.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <unistd.h>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 #include "services/runtime/clock.hpp"
+#include "services/runtime/interfaces.hpp"
 
 namespace quoin::runtime {
 
@@ -25,21 +30,34 @@ std::uint64_t resident_bytes() {
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
 double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
 }  // namespace
+
+std::string state_name(msg::ServiceState state) {
+  switch (state) {
+    case msg::STATE_STARTING:
+      return "starting";
+    case msg::STATE_HELD:
+      return "held";
+    case msg::STATE_ACTIVE:
+      return "active";
+    case msg::STATE_FINISHED:
+      return "finished";
+    case msg::STATE_STOPPED:
+      return "stopped";
+    case msg::STATE_FAILED:
+      return "failed";
+  }
+  return "unknown";
+}
 
 Heartbeat::Heartbeat(Participant& participant, const deploy::Deployment& deployment,
                      const deploy::ServiceConfig& config)
     : incarnation_(static_cast<std::uint64_t>(now_ns())),
       rate_since_(now_ns()),
       writer_(participant, deploy::status_topic(deployment.name_space), QosPreset::state) {
-  status_.service(config.name);
+  status_.service(label(config));
   status_.kind(config.kind);
   status_.method(config.method);
   status_.host(host_name());
@@ -59,11 +77,14 @@ Heartbeat::~Heartbeat() {
 }
 
 void Heartbeat::set_state(msg::ServiceState state, const std::string& detail) {
-  const std::lock_guard lock(mutex_);
-  status_.state(state);
-  status_.detail(detail);
-  changed_state_ = true;
-  changed_.notify_all();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state(state);
+    status_.detail(detail);
+    changed_state_ = true;
+    changed_.notify_all();
+  }
+  if (state == msg::ServiceState::STATE_ACTIVE) supervisor_.ready();
 }
 
 void Heartbeat::set_detail(const std::string& detail) {
@@ -74,6 +95,11 @@ void Heartbeat::set_detail(const std::string& detail) {
 void Heartbeat::set_method(const std::string& method) {
   const std::lock_guard lock(mutex_);
   status_.method(method);
+}
+
+void Heartbeat::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
 }
 
 void Heartbeat::set_diagnostic(const std::string& name, const std::string& value) {
@@ -105,6 +131,11 @@ void Heartbeat::count_received(std::uint64_t upstream_lost, std::uint64_t link_l
 void Heartbeat::count_loss(LossCause cause) {
   const std::lock_guard lock(mutex_);
   ++losses_[static_cast<std::size_t>(cause)];
+}
+
+void Heartbeat::count_control_drop() {
+  const std::lock_guard lock(mutex_);
+  ++status_.control_dropped();
 }
 
 void Heartbeat::count_published(std::int64_t scan_published, std::int64_t received,
@@ -144,7 +175,13 @@ msg::ServiceStatus Heartbeat::snapshot() {
   status_.processing_p50(processing_.quantile(0.5));
   status_.processing_p99(processing_.quantile(0.99));
   status_.resident_memory(resident);
+  const std::vector<std::string> known_misfits = status_.incompatible_qos();
   if (endpoint_report_) endpoint_report_(status_);
+  for (const std::string& misfit : status_.incompatible_qos()) {
+    if (std::find(known_misfits.begin(), known_misfits.end(), misfit) == known_misfits.end()) {
+      spdlog::warn("QoS does not match: {}", misfit);
+    }
+  }
   return status_;
 }
 
@@ -156,11 +193,27 @@ void Heartbeat::run() {
     }
     {
       const std::lock_guard lock(write_mutex_);
-      writer_.write(snapshot());
+      const msg::ServiceStatus status = snapshot();
+      writer_.write(status);
+      tell_supervisor(status);
     }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });
   }
+}
+
+void Heartbeat::tell_supervisor(const msg::ServiceStatus& status) {
+  std::string text = state_name(status.state());
+  if (!status.detail().empty()) text += ": " + status.detail();
+  // The service manager writes each of these down.
+  if (text == told_ && seconds(told_at_, status.stamp()) < 10.0) return;
+  told_ = text;
+  told_at_ = status.stamp();
+  std::array<char, 96> counts{};
+  std::snprintf(counts.data(), counts.size(), "; %.1f Hz, %llu published, %llu lost", status.rate(),
+                static_cast<unsigned long long>(status.published()),
+                static_cast<unsigned long long>(status.lost()));
+  supervisor_.status(text + counts.data());
 }
 
 void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
@@ -171,8 +224,11 @@ void Heartbeat::finish(msg::ServiceState state, const std::string& detail) {
     ending_ = true;
     changed_.notify_all();
   }
+  supervisor_.stopping();
   const std::lock_guard lock(write_mutex_);
-  writer_.write(snapshot());
+  const msg::ServiceStatus status = snapshot();
+  writer_.write(status);
+  tell_supervisor(status);
   writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
 }
 

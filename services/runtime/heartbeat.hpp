@@ -12,6 +12,7 @@
 
 #include "core/evaluation/quantile_histogram.hpp"
 #include "deploy/deployment/deployment.hpp"
+#include "services/runtime/supervisor_link.hpp"
 #include "services/runtime/writer.hpp"
 
 namespace quoin::runtime {
@@ -23,8 +24,12 @@ enum class LossCause {
   publishing,  ///< DDS did not take the result
 };
 
+/// "starting", "active", ...
+[[nodiscard]] std::string state_name(msg::ServiceState state);
+
 /// Counts what a service does and tells it to everybody, once a second and at each change of state,
-/// from a thread of its own so that the data path never waits for it.
+/// from a thread of its own so that the data path never waits for it. Tells the service manager
+/// that started the process, too: ready when active.
 class Heartbeat {
  public:
   Heartbeat(Participant& participant, const deploy::Deployment& deployment,
@@ -39,6 +44,8 @@ class Heartbeat {
   void set_state(msg::ServiceState state, const std::string& detail = "");
   void set_detail(const std::string& detail);
   void set_method(const std::string& method);
+  /// Of a source that does not begin with scan 0.
+  void set_first_sequence_number(std::uint64_t number);
   /// Adds the entry of this name, or replaces its value.
   void set_diagnostic(const std::string& name, const std::string& value);
   /// Asked at each heartbeat for what the endpoints know: fills the matched_ and incompatible_
@@ -48,16 +55,22 @@ class Heartbeat {
 
   void count_received(std::uint64_t upstream_lost, std::uint64_t link_lost);
   void count_loss(LossCause cause);
+  void count_control_drop();
   /// A result was published: stage times [ns since the Unix epoch] and parts without a result.
   void count_published(std::int64_t scan_published, std::int64_t received, std::int64_t published,
                        std::size_t failures);
 
+  /// Sign of life of the thread that data passes through.
+  [[nodiscard]] Pulse& pulse() { return supervisor_.pulse(); }
+  /// The end has begun: what is in flight is worked off.
+  void stopping() { supervisor_.stopping(); }
   /// The last heartbeat, acknowledged by those who listen or given up after half a second.
   void finish(msg::ServiceState state, const std::string& detail = "");
 
  private:
   void run();
   [[nodiscard]] msg::ServiceStatus snapshot();
+  void tell_supervisor(const msg::ServiceStatus& status);
 
   const std::uint64_t incarnation_;
   std::mutex mutex_;
@@ -73,6 +86,9 @@ class Heartbeat {
   std::function<void(msg::ServiceStatus&)> endpoint_report_;
   std::mutex write_mutex_;  // heartbeats leave in the order of their snapshots
   Writer<msg::ServiceStatus> writer_;
+  SupervisorLink supervisor_;
+  std::string told_;          // state and detail that the supervisor knows
+  std::int64_t told_at_ = 0;  // [ns since the Unix epoch]
   std::thread thread_;
 };
 

@@ -53,9 +53,6 @@ class MethodExchange {
     switch (request.action()) {
       case msg::ControlAction::CONTROL_DESCRIBE:
         break;
-      case msg::ControlAction::CONTROL_STOP:
-        service_.stop.request();
-        break;
       case msg::ControlAction::CONTROL_SWAP_METHOD:
         exchange(request.method(), settings(request), reply);
         break;

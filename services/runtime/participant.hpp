@@ -2,25 +2,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "deploy/deployment/deployment.hpp"
 
 namespace quoin::runtime {
 
-/// How a process takes part in DDS. Loopback only.
+/// How a process takes part in DDS.
 struct ParticipantConfig {
   int domain = 0;
   std::string name;  ///< shown by DDS tools
+  deploy::NetworkConfig network = {};
+  /// It is this one of the network's discovery servers.
+  std::optional<std::size_t> server = std::nullopt;
+  std::optional<deploy::SecurityConfig> security = {};
+  std::string identity = {};  ///< whose keys it has, with security
 };
 
-/// A DDS participant that speaks UDP on 127.0.0.1 alone: it opens no other interface, sends no
-/// multicast and leaves no shared-memory file. Throws std::runtime_error when it cannot be created.
+/// Of a participant that takes part in `deployment` as <namespace>/`name`, where security is on
+/// with the keys of `identity`, or of `name` where that is "". Throws DeploymentError when they do
+/// not let it.
+[[nodiscard]] ParticipantConfig participant_config(const deploy::Deployment& deployment,
+                                                   const std::string& name,
+                                                   std::string_view identity = "");
+
+/// A DDS participant that speaks UDP on the interfaces of its network alone (127.0.0.1 when that
+/// names none), sends multicast only for Discovery::multicast, and leaves no shared-memory file.
+/// Throws std::runtime_error when it cannot be created.
 class Participant {
  public:
   explicit Participant(const ParticipantConfig& config);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
+
+  /// Topics that other participants are known to write to.
+  [[nodiscard]] std::vector<std::string> written_topics() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

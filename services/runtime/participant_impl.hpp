@@ -3,22 +3,25 @@
 #pragma once
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
-#include <fastdds/dds/core/status/IncompatibleQosStatus.hpp>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "services/runtime/discovery.hpp"
 #include "services/runtime/participant.hpp"
 
 namespace quoin::runtime {
 
 struct Participant::Impl {
+  explicit Impl(std::unique_ptr<KnownEndpoints> others) : endpoints(std::move(others)) {}
+
+  std::unique_ptr<KnownEndpoints> endpoints;  // outlives the participant, which calls it
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
@@ -28,20 +31,17 @@ struct Participant::Impl {
                                        const eprosima::fastdds::dds::TypeSupport& type);
 };
 
-/// Peers of an endpoint as its listener sees them.
+/// Number of peers of an endpoint, as its listener sees it.
 class MatchState {
  public:
   void set_matched(int count);
-  void add_incompatible(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
   [[nodiscard]] std::size_t matched() const;
   [[nodiscard]] bool wait(std::size_t count, std::chrono::milliseconds timeout) const;
-  [[nodiscard]] std::vector<std::string> incompatible() const;
 
  private:
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::size_t matched_ = 0;
-  std::vector<std::string> incompatible_;
 };
 
 }  // namespace quoin::runtime

@@ -21,6 +21,19 @@ QosPreset qos_preset(std::string_view name) {
   throw std::invalid_argument("unknown QoS preset '" + std::string(name) + "'");
 }
 
+TopicQos output_qos(const deploy::ServiceConfig& service) {
+  TopicQos qos = qos_preset(service.qos);
+  qos.strength = service.strength;
+  qos.lease = service.lease;
+  return qos;
+}
+
+TopicQos onlooker_qos(const deploy::ServiceConfig& service) {
+  TopicQos qos = output_qos(service);
+  if (qos.preset == QosPreset::lossless) qos.preset = QosPreset::feature;
+  return qos;
+}
+
 namespace {
 
 // Services of one deployment that share the status topic.
@@ -46,7 +59,8 @@ int depth(QosPreset preset) {
 
 // The policies that writer and reader share.
 template <class Qos>
-Qos common_qos(Qos qos, QosPreset preset) {
+Qos common_qos(Qos qos, const TopicQos& topic) {
+  const QosPreset preset = topic.preset;
   const bool keyed = preset == QosPreset::state;
   const int samples = depth(preset);
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
@@ -63,6 +77,15 @@ Qos common_qos(Qos qos, QosPreset preset) {
   qos.resource_limits().allocated_samples = 1;
   qos.endpoint().history_memory_policy =
       eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  if (topic.strength) {
+    qos.ownership().kind = dds::EXCLUSIVE_OWNERSHIP_QOS;
+    // With the other two kinds of liveliness Fast DDS 2.9 never gives up a writer that was killed
+    // while another one of the topic lives.
+    qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    const auto lease = std::chrono::nanoseconds(topic.lease).count();
+    qos.liveliness().lease_duration = Duration_t(static_cast<std::int32_t>(lease / 1'000'000'000),
+                                                 static_cast<std::uint32_t>(lease % 1'000'000'000));
+  }
   return qos;
 }
 
@@ -75,19 +98,20 @@ Duration_t repeat_delay(QosPreset preset) {
 
 }  // namespace
 
-dds::DataWriterQos writer_qos(QosPreset preset) {
-  dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), preset);
+dds::DataWriterQos writer_qos(const TopicQos& topic) {
+  dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), topic);
+  if (topic.strength) qos.ownership_strength().value = static_cast<std::uint32_t>(*topic.strength);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
   auto& times = qos.reliable_writer_qos().times;
   times.heartbeatPeriod = Duration_t(0, 50'000'000);
-  times.nackResponseDelay = repeat_delay(preset);
+  times.nackResponseDelay = repeat_delay(topic.preset);
   return qos;
 }
 
-dds::DataReaderQos reader_qos(QosPreset preset) {
-  dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), preset);
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(preset);
+dds::DataReaderQos reader_qos(const TopicQos& topic) {
+  dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), topic);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(topic.preset);
   return qos;
 }
 

@@ -9,7 +9,7 @@
 
 namespace quoin::runtime {
 
-[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(QosPreset preset);
-[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(QosPreset preset);
+[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(const TopicQos& topic);
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(const TopicQos& topic);
 
 }  // namespace quoin::runtime

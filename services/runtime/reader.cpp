@@ -18,11 +18,11 @@ using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
-                       QosPreset preset)
+                       const TopicQos& qos)
     : participant(owner), topic_name(topic) {
-  reader = owner.impl().subscriber->create_datareader(
-      owner.impl().topic(topic, type), reader_qos(preset), this,
-      dds::StatusMask::subscription_matched() << dds::StatusMask::requested_incompatible_qos());
+  reader =
+      owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type), reader_qos(qos),
+                                                 this, dds::StatusMask::subscription_matched());
   if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
   reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
 }
@@ -36,11 +36,6 @@ void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
   match.set_matched(status.current_count);
 }
 
-void ReaderBase::Impl::on_requested_incompatible_qos(
-    dds::DataReader*, const dds::RequestedIncompatibleQosStatus& status) {
-  match.add_incompatible(topic_name, status.last_policy_id);
-}
-
 ReaderBase::ReaderBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ReaderBase::~ReaderBase() = default;
 
@@ -51,7 +46,8 @@ bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds t
 }
 
 std::vector<std::string> ReaderBase::incompatible_qos() const {
-  return impl_->match.incompatible();
+  return impl_->participant.impl().endpoints->misfits_of_reader(impl_->topic_name,
+                                                                policies_of(*impl_->reader));
 }
 
 bool ReaderBase::take_raw(void* sample) {

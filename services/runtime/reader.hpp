@@ -22,7 +22,7 @@ class ReaderBase {
   /// Writers matched now.
   [[nodiscard]] std::size_t matched() const;
   [[nodiscard]] bool wait_for_writers(std::size_t count, std::chrono::milliseconds timeout) const;
-  /// QoS mismatches seen, each naming topic and policy.
+  /// Writers of this topic that do not fit, each with topic, policy and both sides' values.
   [[nodiscard]] std::vector<std::string> incompatible_qos() const;
 
   struct Impl;
@@ -41,7 +41,7 @@ class ReaderBase {
 template <class T>
 class Reader : public ReaderBase {
  public:
-  Reader(Participant& participant, const std::string& topic, QosPreset qos);
+  Reader(Participant& participant, const std::string& topic, const TopicQos& qos);
   /// Next message into `message`, whose memory is reused; false when there is none.
   bool take(T& message) { return take_raw(&message); }
 };

@@ -14,15 +14,12 @@ namespace quoin::runtime {
 
 struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
   Impl(Participant& owner, const std::string& topic,
-       const eprosima::fastdds::dds::TypeSupport& type, QosPreset preset);
+       const eprosima::fastdds::dds::TypeSupport& type, const TopicQos& qos);
   ~Impl() override;
 
   void on_subscription_matched(
       eprosima::fastdds::dds::DataReader*,
       const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
-  void on_requested_incompatible_qos(
-      eprosima::fastdds::dds::DataReader*,
-      const eprosima::fastdds::dds::RequestedIncompatibleQosStatus& status) override;
 
   Participant& participant;
   std::string topic_name;

@@ -19,8 +19,9 @@ const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment,
                                           const std::string& name, const std::string& kind) {
   std::vector<std::string> candidates;
   for (const deploy::ServiceConfig& service : deployment.services) {
-    if (service.name == name && service.kind == kind) return service;
-    if (service.kind == kind) candidates.push_back(service.name);
+    if (service.kind != kind) continue;
+    if (label(service) == name) return service;
+    candidates.push_back(label(service));
   }
   throw deploy::DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " +
                                  kind + suggestion(name, candidates)});
@@ -29,13 +30,14 @@ const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment,
 }  // namespace
 
 Service::Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
-                 const deploy::ServiceConfig& service_config, std::size_t readers)
+                 const deploy::ServiceConfig& service_config, std::size_t readers, bool held)
     : stop(stop_signal),
       deployment(deployment_file),
       config(service_config),
-      participant({deployment.domain, deployment.name_space + "/" + config.name}),
+      participant(participant_config(deployment, label(config))),
       heartbeat(participant, deployment, config),
-      expected_readers(readers) {}
+      expected_readers(readers),
+      succession(held) {}
 
 bool Service::wait_for_readers(const WriterBase& writer) {
   using std::chrono::milliseconds;
@@ -46,7 +48,7 @@ bool Service::wait_for_readers(const WriterBase& writer) {
   const auto deadline = steady_clock::now() + std::chrono::seconds(10);
   while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
     if (stop.requested()) return false;
-    if (steady_clock::now() > deadline) {
+    if (!succession.held() && steady_clock::now() > deadline) {
       spdlog::warn("only {} of {} readers are there after 10 s; going on without the others",
                    writer.matched(), expected_readers);
       break;
@@ -62,11 +64,19 @@ int run_service(
   CLI::App app{"Quoin service of kind " + kind + ", as described in a deployment file"};
   std::string deployment_file;
   std::string service_name;
+  std::string deployment_name;
   std::size_t observers = 0;
+  bool held = false;
   app.add_option("--deployment", deployment_file, "Deployment file (YAML)")->required();
   app.add_option("--service", service_name, "Name of this service in it")->required();
   app.add_option("--observers", observers,
                  "Readers outside the deployment to wait for before the first scan");
+  app.add_option("--deployment-name", deployment_name,
+                 "What the deployment file is a copy of: messages name that, and paths in it count "
+                 "from its folder");
+  app.add_flag("--held", held,
+               "Take over from a running process of this service when asked to; publish nothing "
+               "before");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -77,17 +87,19 @@ int run_service(
   spdlog::set_pattern("%H:%M:%S.%e [%n] %^%l%$ %v");
   try {
     StopSignal stop;
-    const deploy::Deployment deployment = deploy::load_deployment(deployment_file);
+    if (deployment_name.empty()) deployment_name = deployment_file;
+    const deploy::Deployment deployment =
+        deploy::parse_deployment(deploy::read_deployment(deployment_file), deployment_name);
     const deploy::ServiceConfig& config = find_service(deployment, service_name, kind);
     check(deployment, config);
-    Service service(stop, deployment, config,
-                    deployment.readers_of(config.name).size() + observers);
+    Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers,
+                    held);
     return run(service);
   } catch (const deploy::DeploymentError& error) {
     for (const std::string& message : error.messages()) spdlog::error("{}", message);
     return exit_configuration;
   } catch (const ParameterError& error) {
-    spdlog::error("{}: parameter '{}': {}", deployment_file, error.parameter(), error.what());
+    spdlog::error("{}: parameter '{}': {}", deployment_name, error.parameter(), error.what());
     return exit_configuration;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());

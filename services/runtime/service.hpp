@@ -12,6 +12,7 @@
 #include "services/runtime/heartbeat.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/stop_signal.hpp"
+#include "services/runtime/succession.hpp"
 
 namespace quoin::runtime {
 
@@ -24,12 +25,15 @@ struct Service {
   Heartbeat heartbeat;
   /// Readers of the output to wait for before the input is opened.
   std::size_t expected_readers;
+  Succession succession;
 
+  /// `held`: to take over from another process of the service.
   Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
-          const deploy::ServiceConfig& service_config, std::size_t readers);
+          const deploy::ServiceConfig& service_config, std::size_t readers, bool held);
 
-  /// Waits until `writer` has the expected readers; goes on without them after ten seconds, since a
-  /// reader that crashed must not hold up the others. False when asked to stop meanwhile.
+  /// Waits until `writer` has the expected readers. Goes on without them after ten seconds, since a
+  /// reader that crashed must not hold up the others, but not when held: the other process is still
+  /// at work. False when asked to stop meanwhile.
   [[nodiscard]] bool wait_for_readers(const WriterBase& writer);
 };
 

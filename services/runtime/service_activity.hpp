@@ -20,7 +20,11 @@ class ServiceActivity : public Base {
   explicit ServiceActivity(Service& service) : service_(service) {}
 
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time) override {
-    return service_.stop.wait_until(time);
+    Pulse& pulse = service_.heartbeat.pulse();
+    pulse.wait_until(time);
+    const bool go_on = service_.stop.wait_until(time);
+    pulse.beat();
+    return go_on;
   }
 
   void warn(const std::string& text) override {

@@ -3,10 +3,13 @@
 #include "services/runtime/source.hpp"
 
 #include <exception>
+#include <limits>
+#include <optional>
 
 #include <spdlog/spdlog.h>
 
 #include "services/runtime/clock.hpp"
+#include "services/runtime/control.hpp"
 #include "services/runtime/delivery.hpp"
 #include "services/runtime/service_activity.hpp"
 
@@ -16,10 +19,13 @@ namespace {
 
 class PublishingSource final : public ServiceActivity<Source> {
  public:
-  PublishingSource(Service& service, Writer<msg::Scan>& writer)
+  PublishingSource(Service& service, Writer<msg::Scan>& writer, std::uint64_t first)
       : ServiceActivity<Source>(service),
         writer_(writer),
-        lossless_(qos_preset(service.config.qos) == QosPreset::lossless) {}
+        lossless_(qos_preset(service.config.qos) == QosPreset::lossless),
+        next_sequence_(first) {}
+
+  [[nodiscard]] std::uint64_t next_sequence() const { return next_sequence_; }
 
   bool publish(msg::Scan& scan) override {
     if (service_.stop.requested()) return false;
@@ -32,7 +38,8 @@ class PublishingSource final : public ServiceActivity<Source> {
     trace.incarnation(service_.heartbeat.incarnation());
     trace.index(next_index_);
     trace.received(now_ns());
-    const bool delivered = deliver(writer_, scan, trace, lossless_, service_.stop);
+    const bool delivered =
+        deliver(writer_, scan, trace, lossless_, service_.stop, service_.heartbeat.pulse());
     if (delivered) {
       ++next_index_;
       service_.heartbeat.count_published(trace.published(), trace.received(), trace.published(), 0);
@@ -45,24 +52,52 @@ class PublishingSource final : public ServiceActivity<Source> {
  private:
   Writer<msg::Scan>& writer_;
   bool lossless_;
-  std::uint64_t next_sequence_ = 0;
+  std::uint64_t next_sequence_;
   std::uint64_t next_index_ = 0;
 };
+
+/// The number of the first scan; nothing when asked to stop before there is one to publish.
+std::optional<std::uint64_t> wait_for_begin(Service& service, const WriterBase& writer) {
+  if (!service.wait_for_readers(writer)) return std::nullopt;
+  if (!service.succession.held()) return 0;
+  service.heartbeat.set_state(msg::ServiceState::STATE_HELD);
+  while (true) {
+    const std::optional<std::uint64_t> first = service.succession.begin();
+    if (first) service.heartbeat.set_first_sequence_number(*first);
+    if (first) return first;
+    const auto soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+    if (!service.stop.wait_until(soon)) return std::nullopt;
+  }
+}
 
 int publish_all(Service& service, const std::function<void(Source&)>& body) {
   Writer<msg::Scan> writer(service.participant,
                            deploy::output_topic(service.deployment, service.config),
-                           qos_preset(service.config.qos));
+                           output_qos(service.config));
   service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
     status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));
     status.incompatible_qos(writer.incompatible_qos());
   });
+  ControlServer control(service, [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
+    if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
+      throw std::invalid_argument("kind " + service.config.kind +
+                                  " has no methods; change its parameters in the deployment file "
+                                  "and apply that (quoin apply)");
+    }
+    reply.accepted(true);
+  });
+  service.succession.on_request([&service] {
+    if (service.succession.leaves(std::numeric_limits<std::uint64_t>::max())) {
+      service.stop.request();
+    }
+  });
   int exit_code = exit_ok;
+  std::uint64_t next = 0;
   msg::ServiceState state = msg::ServiceState::STATE_STOPPED;
   std::string detail;
-  if (service.wait_for_readers(writer)) {
+  if (const auto first = wait_for_begin(service, writer)) {
     service.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
-    PublishingSource source(service, writer);
+    PublishingSource source(service, writer, *first);
     try {
       body(source);
       if (!service.stop.requested()) state = msg::ServiceState::STATE_FINISHED;
@@ -72,11 +107,15 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
       detail = error.what();
       exit_code = exit_input;
     }
+    next = source.next_sequence();
   }
+  service.heartbeat.stopping();
   // What has been written must reach the readers before the writer goes.
   if (!writer.wait_for_acknowledgments(std::chrono::seconds(2))) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
+  service.succession.on_request(nullptr);
+  service.succession.left(next);
   service.heartbeat.finish(state, detail);
   service.heartbeat.set_endpoint_report(nullptr);
   return exit_code;

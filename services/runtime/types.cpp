@@ -17,11 +17,11 @@ namespace quoin::runtime {
 using eprosima::fastdds::dds::TypeSupport;
 
 template <class T>
-Writer<T>::Writer(Participant& participant, const std::string& topic, QosPreset qos)
+Writer<T>::Writer(Participant& participant, const std::string& topic, const TopicQos& qos)
     : WriterBase(std::make_unique<Impl>(participant, topic, type_support<T>(), qos)) {}
 
 template <class T>
-Reader<T>::Reader(Participant& participant, const std::string& topic, QosPreset qos)
+Reader<T>::Reader(Participant& participant, const std::string& topic, const TopicQos& qos)
     : ReaderBase(std::make_unique<Impl>(participant, topic, type_support<T>(), qos)) {}
 
 template <>

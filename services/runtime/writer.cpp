@@ -14,12 +14,12 @@ using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
-                       QosPreset preset)
+                       const TopicQos& qos)
     : participant(owner), topic_name(topic) {
   // The listener is given at creation: one that is set later misses the first match.
-  writer = owner.impl().publisher->create_datawriter(
-      owner.impl().topic(topic, type), writer_qos(preset), this,
-      dds::StatusMask::publication_matched() << dds::StatusMask::offered_incompatible_qos());
+  writer =
+      owner.impl().publisher->create_datawriter(owner.impl().topic(topic, type), writer_qos(qos),
+                                                this, dds::StatusMask::publication_matched());
   if (writer == nullptr) throw std::runtime_error("cannot create DDS writer for '" + topic + "'");
 }
 
@@ -30,11 +30,6 @@ WriterBase::Impl::~Impl() {
 void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
                                               const dds::PublicationMatchedStatus& status) {
   match.set_matched(status.current_count);
-}
-
-void WriterBase::Impl::on_offered_incompatible_qos(
-    dds::DataWriter*, const dds::OfferedIncompatibleQosStatus& status) {
-  match.add_incompatible(topic_name, status.last_policy_id);
 }
 
 WriterBase::WriterBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -55,8 +50,11 @@ bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
 }
 
 std::vector<std::string> WriterBase::incompatible_qos() const {
-  return impl_->match.incompatible();
+  return impl_->participant.impl().endpoints->misfits_of_writer(impl_->topic_name,
+                                                                policies_of(*impl_->writer));
 }
+
+void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
 
 bool WriterBase::write_raw(void* sample) { return impl_->writer->write(sample); }
 

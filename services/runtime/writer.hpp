@@ -25,7 +25,9 @@ class WriterBase {
   [[nodiscard]] bool wait_for_readers(std::size_t count, std::chrono::milliseconds timeout) const;
   /// True once all matched readers have everything; false after `timeout`.
   bool wait_for_acknowledgments(std::chrono::milliseconds timeout);
-  /// QoS mismatches seen, each naming topic and policy.
+  /// Tells the readers of a topic with strengths that this writer still lives; writing does, too.
+  void assert_liveliness();
+  /// Readers of this topic that do not fit, each with topic, policy and both sides' values.
   [[nodiscard]] std::vector<std::string> incompatible_qos() const;
 
   struct Impl;
@@ -44,7 +46,7 @@ class WriterBase {
 template <class T>
 class Writer : public WriterBase {
  public:
-  Writer(Participant& participant, const std::string& topic, QosPreset qos);
+  Writer(Participant& participant, const std::string& topic, const TopicQos& qos);
   bool write(const T& message) { return write_raw(const_cast<T*>(&message)); }
 };
 

@@ -14,15 +14,12 @@ namespace quoin::runtime {
 
 struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
   Impl(Participant& owner, const std::string& topic,
-       const eprosima::fastdds::dds::TypeSupport& type, QosPreset preset);
+       const eprosima::fastdds::dds::TypeSupport& type, const TopicQos& qos);
   ~Impl() override;
 
   void on_publication_matched(
       eprosima::fastdds::dds::DataWriter*,
       const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
-  void on_offered_incompatible_qos(
-      eprosima::fastdds::dds::DataWriter*,
-      const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override;
 
   Participant& participant;
   std::string topic_name;

@@ -13,7 +13,7 @@ violations=0
 # match EXCEPT.
 deny() {
   local found
-  found=$(grep -rnE --include='*.hpp' --include='*.cpp' "^#include [<\"]($2)" "$1" |
+  found=$(grep -rnE --include='*.[ch]pp' --include='*.[ch]' "^#include [<\"]($2)" "$1" |
     grep -vE "${4:-^$}") || return 0
   printf '%s\n%s\n' "$3:" "$found"
   violations=$((violations + 1))
@@ -41,11 +41,15 @@ deny deploy 'core/(evaluation/(consistency|extraction|loop_coverage|segmentation
 deny deploy/evaluation 'deploy/(deployment|quoin|supervision)/|idl/|services/' \
   "the evaluation needs no DDS and no deployment"
 deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
+deny deploy/doctor 'idl/|services/|deploy/quoin/' "the doctor is told what was heard on the network"
+deny deploy/keys 'idl/|services/|yaml-cpp' "what makes keys needs no DDS"
 deny deploy/methods 'idl/|services/' "what describes methods needs no DDS"
 deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
 for stage in segmentation line_fitting corner_estimation; do
   deny "services/$stage" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"
 done
+deny tests/interoperability 'core/|deploy/|idl/|sensor_bridge/|services/|tests/' \
+  "the programs of another DDS know nothing but our IDL files"
 deny services/runtime 'core/(segmentation|fitting|corners|simulation)|sensor_bridge/' \
   "the service kit knows no algorithm"
 
@@ -53,7 +57,7 @@ sources() {
   find CMakeLists.txt core deploy idl sensor_bridge services tests -type f \( "$@" \)
 }
 
-missing=$(sources -name '*.hpp' -o -name '*.cpp' -o -name '*.idl' -o -name '*.sh' -o -name CMakeLists.txt -o -name '*.yaml' |
+missing=$(sources -name '*.[ch]pp' -o -name '*.[ch]' -o -name '*.idl' -o -name '*.sh' -o -name CMakeLists.txt -o -name '*.yaml' |
   grep -v '^tests/deploy/malformed/' | xargs grep -LE 'SPDX-License-Identifier: Apache-2\.0')
 if [[ -n $missing ]]; then
   printf 'no SPDX header:\n%s\n' "$missing"

@@ -5,10 +5,12 @@
 // object.
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <idl/Control.h>
 #include <idl/Corners.h>
 #include <idl/CornersPubSubTypes.h>
 #include <idl/Lines.h>
@@ -30,6 +32,7 @@
 #include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
+#include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
 
 using namespace quoin;
@@ -38,20 +41,6 @@ using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
 namespace {
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
-
-double resident_mib(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
-  double total = 0;
-  double resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-}
 
 /// Twenty different revolutions of a 920-point sensor in the domestic room.
 std::vector<msg::Scan> make_scans() {
@@ -303,6 +292,66 @@ void measure_latency(ServiceChain& services, BareChain& bare, int messages,
       quantile(ours.latencies, 0.99) / quantile(theirs.latencies, 0.99);
 }
 
+/// A script that runs wild: while it is on, a thousand bad control requests a second to the fitter.
+class RequestFlood {
+ public:
+  RequestFlood(int domain, const std::string& name_space)
+      : participant_({domain, "flood"}),
+        writer_(participant_, deploy::control_request_topic(name_space),
+                runtime::QosPreset::control) {
+    if (!writer_.wait_for_readers(3, 20s)) throw std::runtime_error("no service takes requests");
+    thread_ = std::thread([this] { run(); });
+  }
+  ~RequestFlood() {
+    ending_ = true;
+    thread_.join();
+  }
+  RequestFlood(const RequestFlood&) = delete;
+  RequestFlood& operator=(const RequestFlood&) = delete;
+
+  void turn(bool on) { on_ = on; }
+
+ private:
+  void run() {
+    msg::ControlRequest request;
+    request.service("wctls");
+    request.requester("flood");
+    request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
+    request.method("no_such_method");
+    auto next = steady_clock::now();
+    while (!ending_) {
+      request.request(request.request() + 1);
+      if (on_) writer_.write(request);
+      next = std::max(next + 1ms, steady_clock::now() - 100ms);
+      std::this_thread::sleep_until(next);
+    }
+  }
+
+  runtime::Participant participant_;
+  runtime::Writer<msg::ControlRequest> writer_;
+  std::atomic<bool> on_{false};
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+/// Scans at 10 Hz; the flood of requests comes and goes every second.
+void measure_requests(ServiceChain& services, int domain, int messages,
+                      nlohmann::ordered_json& figures) {
+  RequestFlood flood(domain, services.name_space());
+  ChainResult quiet;
+  ChainResult flooded;
+  auto next = steady_clock::now();
+  for (int i = 0; i < messages; ++i) {
+    const bool on = i / 10 % 2 == 1;
+    flood.turn(on);
+    std::this_thread::sleep_until(next += 100ms);
+    one_message(services, on ? flooded : quiet);
+  }
+  figures["chain_p50_flooded_over_quiet"] =
+      quantile(flooded.latencies, 0.5) / quantile(quiet.latencies, 0.5);
+  figures["chain_flooded_lost"] = flooded.sent - flooded.received;
+}
+
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   std::string line;
@@ -372,6 +421,8 @@ int main(int argc, char** argv) {
       BareChain bare(domain, false, sizes, directory);
       std::cerr << "latency: " << messages << " messages through each chain at 10 Hz\n";
       measure_latency(services, bare, messages, figures);
+      std::cerr << "control requests: " << messages << " messages, a flood every other second\n";
+      measure_requests(services, domain, messages, figures);
       double worst = 0.0;
       for (const tests::Process& process : services.processes())
         worst = std::max(worst, resident_mib(process.pid()));

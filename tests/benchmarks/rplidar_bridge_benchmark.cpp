@@ -11,14 +11,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <idl/Scan.h>
 #include <iostream>
 #include <mutex>
-#include <sstream>
 #include <string>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -28,11 +25,13 @@
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/reader.hpp"
+#include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 namespace {
 
 using namespace quoin;
+using namespace quoin::benchmarks;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using sensor_bridge::rplidar::EmulatedDevice;
@@ -87,35 +86,13 @@ class TimedDevice {
   std::thread thread_;
 };
 
-/// [s] of processor time that a process has used.
-double processor_time(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  // Behind the name, which ends with the last bracket: state, then ten numbers, then the two times.
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  std::string skipped;
-  for (int i = 0; i < 11; ++i) fields >> skipped;
-  double user = 0.0;
-  double system = 0.0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
 /// Share of one processor [%] that a process uses during `time`.
 double load(pid_t process, std::chrono::duration<double> time) {
-  const double before = processor_time(process);
+  const std::chrono::nanoseconds before = processor_time(process);
   const Clock::time_point begin = Clock::now();
   std::this_thread::sleep_for(time);
   const std::chrono::duration<double> elapsed = Clock::now() - begin;
-  return 100.0 * (processor_time(process) - before) / elapsed.count();
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(share * last + 0.5)];
+  return 100.0 * std::chrono::duration<double>(processor_time(process) - before) / elapsed;
 }
 
 }  // namespace

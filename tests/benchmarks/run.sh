@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Runs the benchmarks of a built tree and prints their figures: a table, or with --json one JSON object of those
-# of extraction and chain (rplidar_bridge_benchmark has a --json of its own).
+# of extraction and chain (the others have a --json of their own).
 # Every figure is a ratio of two things measured in the same run, or stands beside what it is measured against.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -14,7 +14,7 @@ case "${1-}" in
   --json) format=json ;;
   *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
 esac
-for program in extraction_benchmark chain_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark; do
+for program in extraction_benchmark chain_benchmark side_by_side_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark; do
   if [[ ! -x $bin/$program ]]; then
     echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
     exit 2
@@ -28,7 +28,12 @@ echo "extraction: one thread, 920 points" >&2
   --benchmark_repetitions=9 --benchmark_report_aggregates_only=true >"$work/extraction.txt" 2>&1
 "$bin/chain_benchmark" --extraction "$work/extraction.json" --format "$format"
 if [[ $format == table ]]; then
+  "$bin/side_by_side_benchmark"
   echo "RPLIDAR decoder and bridge" >&2
   "$bin/rplidar_decoder_benchmark"
   "$bin/rplidar_bridge_benchmark"
+  echo "standby: 50 kills of the strong instance at 10 Hz, lease 100 ms" >&2
+  "$bin/standby_benchmark"
+  echo "security: three rounds of 10 s without, signed and encrypted, at 10 Hz" >&2
+  "$bin/security_benchmark"
 fi

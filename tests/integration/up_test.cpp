@@ -3,6 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <idl/Segments.h>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -11,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/integration/harness/leftovers.hpp"
 
 namespace quoin {
 namespace {
@@ -20,6 +23,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using tests::Process;
+using tests::processes_naming;
+using tests::shared_memory_files;
 using tests::StatusRecorder;
 using tests::TestDeployment;
 
@@ -29,28 +34,6 @@ std::string chain(const std::string& source_parameters) {
          "  - {name: walls, kind: segmentation, input: front, method: iepf}\n"
          "  - {name: wctls, kind: line_fitting, input: walls, method: wctls}\n"
          "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n";
-}
-
-/// Processes whose command line names `text`.
-std::set<pid_t> processes_naming(const std::string& text) {
-  std::set<pid_t> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream file(entry.path() / "cmdline");
-    const std::string command((std::istreambuf_iterator<char>(file)),
-                              std::istreambuf_iterator<char>());
-    if (command.find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
-  }
-  return found;
-}
-
-std::set<std::string> shared_memory_files() {
-  std::set<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
-    files.insert(entry.path().filename());
-  }
-  return files;
 }
 
 TEST(Up, RunsAFiniteSourceToItsEndAndSumsUp) {
@@ -139,16 +122,76 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   EXPECT_GT(corners["lost_by_stage"]["walls"], 0);
 }
 
-TEST(Status, ListsWhatRuns) {
+/// What `quoin doctor` finds, by check.
+std::multimap<std::string, std::string> findings(const TestDeployment& deployment) {
+  Process doctor = deployment.quoin({"doctor", "FILE", "--json"});
+  EXPECT_TRUE(doctor.wait(30s)) << doctor.errors();
+  const json report = json::parse(doctor.output());
+  std::multimap<std::string, std::string> texts;
+  for (const json& check : report["checks"]) {
+    if (check["verdict"] == "ok") continue;
+    EXPECT_NE(check["advice"], "");
+    texts.emplace(check["check"], check["text"]);
+  }
+  return texts;
+}
+
+/// The same, once it finds something of `check`: a host that is busy hears little in its time.
+std::multimap<std::string, std::string> findings(const TestDeployment& deployment,
+                                                 const std::string& check) {
+  std::multimap<std::string, std::string> found;
+  EXPECT_TRUE(tests::eventually([&] {
+    found = findings(deployment);
+    return found.contains(check);
+  }));
+  return found;
+}
+
+TEST(Status, TellsWhatRunsAndWhoDoesNotFitToWhom) {
   const TestDeployment deployment(chain("rate_hz: 50"));
   Process up = deployment.quoin({"up", "FILE", "--quiet"});
-  runtime::Participant participant(deployment.participant("test"));
+  runtime::Participant participant(deployment.participant("visitor"));
   StatusRecorder status(participant, deployment);
   ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 10; }));
-  Process listing = deployment.quoin({"status", "FILE", "--json"});
-  ASSERT_EQ(listing.wait(20s), 0) << listing.errors();
-  EXPECT_THAT(listing.output(), HasSubstr("wctls"));
-  EXPECT_TRUE(json::accept(listing.output()));
+  const runtime::Reader<msg::Segments> visitor(participant, deployment.topic("walls"),
+                                               runtime::QosPreset::state);
+  ASSERT_TRUE(
+      status.wait_for("walls", [](const auto& s) { return !s.incompatible_qos().empty(); }));
+
+  // Without a file: all namespaces of the domain, of which other tests may have some.
+  const std::string domain = std::to_string(deployment.deployment().domain);
+  json walls;
+  ASSERT_TRUE(tests::eventually([&] {
+    Process listing = deployment.quoin({"status", "--domain", domain, "--json"});
+    EXPECT_TRUE(listing.wait(20s)) << listing.errors();
+    const json listed = json::parse(listing.output());
+    for (const json& service : listed["services"]) {
+      const bool ours = service["namespace"] == deployment.deployment().name_space;
+      if (ours && service["kind"] == "segmentation") walls = service;
+    }
+    return !walls.is_null();
+  }));
+  const std::string mismatch = deployment.topic("walls") +
+                               ": durability: walls offers volatile, visitor requests "
+                               "transient-local";
+  EXPECT_EQ(walls["incompatible_qos"], json::array({mismatch}));
+  EXPECT_EQ(walls["state"], "active");
+  EXPECT_EQ(walls["method"], "iepf");
+  EXPECT_GE(walls["age_s"], 0.0);
+  EXPECT_LT(walls["age_s"], 30.0);
+  Process table = deployment.quoin({"status", "FILE"});
+  ASSERT_EQ(table.wait(20s), 0) << table.errors();
+  EXPECT_THAT(table.output(), HasSubstr("walls: incompatible QoS: " + mismatch));
+
+  const auto found = findings(deployment, "QoS");
+  EXPECT_THAT(found, testing::Contains(testing::Pair("QoS", HasSubstr(mismatch))));
+  EXPECT_THAT(found, testing::Not(testing::Contains(testing::Key("deployments"))));
+  const Process second = deployment.start("walls");
+  ASSERT_TRUE(status.wait_for(
+      "walls", [&](const auto& s) { return static_cast<pid_t>(s.pid()) == second.pid(); }));
+  EXPECT_THAT(
+      findings(deployment, "deployments"),
+      testing::Contains(testing::Pair("deployments", HasSubstr("/walls runs more than once"))));
 }
 
 TEST(Echo, PrintsTheMessagesOfAService) {

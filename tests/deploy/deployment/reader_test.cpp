@@ -48,6 +48,83 @@ TEST(Reader, FillsInDefaults) {
   EXPECT_EQ(deployment.service("front").method, "");
 }
 
+TEST(Reader, ReadsWhereServicesRunAndHowTheyMeet) {
+  const Deployment deployment = parse_deployment(R"(
+version: 1
+network:
+  interfaces: [eth0, 10.7.0.0/24]
+  servers: [10.7.0.2, "10.7.0.3:11899"]
+security: {keys: keys, encrypt: false}
+services:
+  - {name: front, kind: simulated, host: lidar}
+  - {name: walls, kind: segmentation, input: front, host: compute, strength: 1}
+  - {name: walls, kind: segmentation, input: front, host: base-2, strength: 20}
+)",
+                                                 "/etc/robot.yaml");
+  EXPECT_THAT(deployment.network.interfaces, ElementsAre("eth0", "10.7.0.0/24"));
+  EXPECT_EQ(deployment.network.discovery, Discovery::server);
+  EXPECT_THAT(deployment.network.servers,
+              ElementsAre(ServerAddress{"10.7.0.2", 11811}, ServerAddress{"10.7.0.3", 11899}));
+  ASSERT_TRUE(deployment.security.has_value());
+  EXPECT_EQ(deployment.security->directory, "/etc/keys");
+  EXPECT_FALSE(deployment.security->encrypt);
+  EXPECT_THAT(names_of(deployment), ElementsAre("front", "walls", "walls"));
+  EXPECT_EQ(deployment.service("front").host, "lidar");
+  EXPECT_EQ(label(deployment.service("walls")), "walls@20");
+  EXPECT_EQ(deployment.service("walls@1").host, "compute");
+  EXPECT_THROW((void)deployment.service("walls@2"), std::out_of_range);
+}
+
+TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
+  const auto discovery = [](const std::string& network) {
+    return parse_deployment(
+               "version: 1\n" + network + "services:\n  - {name: front, kind: simulated}\n",
+               "robot.yaml")
+        .network.discovery;
+  };
+  EXPECT_EQ(discovery(""), Discovery::peers);  // on the loopback interface
+  EXPECT_EQ(discovery("network: {interfaces: eth0}\n"), Discovery::multicast);
+  EXPECT_EQ(discovery("network: {interfaces: eth0, peers: 10.7.0.1}\n"), Discovery::peers);
+  EXPECT_EQ(discovery("network: {servers: 127.0.0.1}\n"), Discovery::server);
+}
+
+TEST(Reader, KeepsParticipantsLongerOnANetworkUnlessTold) {
+  EXPECT_EQ(parse_network({}).lease, loopback_lease);
+  EXPECT_EQ(parse_network({{"eth0"}, "", {}, {}}).lease, network_lease);
+  const Deployment told = parse_deployment(
+      "version: 1\nnetwork: {interfaces: eth0, lease: 500 ms}\n"
+      "services:\n  - {name: front, kind: simulated}\n",
+      "robot.yaml");
+  EXPECT_EQ(told.network.lease, 0.5);
+}
+
+TEST(Reader, ReadsANetworkThatNoFileDescribes) {
+  const NetworkConfig network = parse_network({{"eth0", "10.7.0.0/24"}, "", {}, {"10.7.0.2:11899"}});
+  EXPECT_THAT(network.interfaces, ElementsAre("eth0", "10.7.0.0/24"));
+  EXPECT_EQ(network.discovery, Discovery::server);
+  EXPECT_THAT(network.servers, ElementsAre(ServerAddress{"10.7.0.2", 11899}));
+  EXPECT_EQ(parse_network({}), NetworkConfig{});
+  try {
+    (void)parse_network({{"eth0"}, "server", {}, {}});
+    ADD_FAILURE();
+  } catch (const DeploymentError& error) {
+    EXPECT_THAT(error.messages(), ElementsAre(testing::StartsWith("discovery: server needs")));
+  }
+}
+
+TEST(Reader, TellsTheHostsThatServicesName) {
+  EXPECT_THAT(hosts_of(parse_deployment(chain, "robot.yaml")), testing::IsEmpty());
+  EXPECT_THAT(hosts_of(parse_deployment(R"(
+version: 1
+services:
+  - {name: front, kind: simulated, host: lidar}
+  - {name: walls, kind: segmentation, input: front, host: compute}
+  - {name: rear, kind: simulated, host: lidar}
+)",
+                                        "robot.yaml")),
+              ElementsAre("lidar", "compute"));
+}
+
 TEST(Reader, PutsInputsFirstAndElseKeepsTheOrder) {
   EXPECT_THAT(names_of(parse_deployment(chain, "robot.yaml")),
               ElementsAre("front", "walls", "lines", "corners", "rear"));

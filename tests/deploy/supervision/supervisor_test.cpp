@@ -72,6 +72,16 @@ TEST_F(Supervision, GivesNoInput) {
   EXPECT_THAT(lines_, ElementsAre("front: end"));
 }
 
+TEST_F(Supervision, GoesOnWithoutSourcesUntilAskedToStop) {
+  start({plan("walls", stage, 1), plan("lines", stage, 2)});
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  ASSERT_TRUE(wait_for_line("lines: ready"));
+  EXPECT_FALSE(supervisor_->stopping());
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
 TEST_F(Supervision, DrainsTheStagesLevelByLevelWhenTheSourcesHaveFinished) {
   start({plan("front", "read never < /dev/null; sleep 0.5"), plan("walls", stage, 1),
          plan("lines", stage, 2)});
@@ -189,6 +199,56 @@ TEST_F(Supervision, SaysWhenAProgramCannotBeExecuted) {
   ASSERT_TRUE(poll_to_the_end());
   EXPECT_THAT(lines_, ElementsAre(HasSubstr("cannot be executed")));
   EXPECT_EQ(supervisor_->exit_code(), 1);
+}
+
+TEST_F(Supervision, AProcessOnTrialTakesThePlaceOfAnother) {
+  start({plan("front", stage), plan("walls", stage, 1)});
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  lines_.clear();
+  const int old = supervisor_->key_of("walls").value();
+  const int young = supervisor_->add(plan("walls", stage, 1));
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  EXPECT_EQ(supervisor_->key_of("walls"), old);
+  EXPECT_EQ(supervisor_->figures("walls").process_id, supervisor_->process_id(old));
+  supervisor_->adopt(young, plan("walls", stage, 1));
+  supervisor_->retire(old, true);
+  ASSERT_TRUE(poll_until([&] { return !supervisor_->running(old); }));
+  EXPECT_EQ(supervisor_->key_of("walls"), young);
+  EXPECT_THAT(events_, IsEmpty());
+  ASSERT_EQ(::kill(supervisor_->process_id(young), SIGKILL), 0);
+  ASSERT_TRUE(poll_until([&] { return supervisor_->figures("walls").restarts == 1; }));
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
+TEST_F(Supervision, AFailedTrialChangesNothing) {
+  start({plan("front", stage)});
+  const int key = supervisor_->add(plan("walls", "echo wrong; exit 2", 1));
+  ASSERT_TRUE(poll_until([&] { return supervisor_->end_of_trial(key).has_value(); }));
+  EXPECT_TRUE(supervisor_->end_of_trial(key)->exited_with(2));
+  EXPECT_THAT(lines_, Contains("walls: wrong"));
+  supervisor_->retire(key, true);
+  supervisor_->poll(0ms);
+  EXPECT_FALSE(supervisor_->stopping());
+  EXPECT_EQ(supervisor_->key_of("walls"), std::nullopt);
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
+TEST_F(Supervision, TheFiguresOfARemovedServiceStay) {
+  start({plan("front", stage), plan("walls", stage, 1)});
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  const int key = supervisor_->key_of("walls").value();
+  const int process = supervisor_->process_id(key);
+  supervisor_->retire(key, true);
+  ASSERT_TRUE(poll_until([&] { return !supervisor_->running(key); }));
+  EXPECT_EQ(supervisor_->key_of("walls"), std::nullopt);
+  EXPECT_EQ(supervisor_->figures("walls").process_id, process);
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
 }
 
 TEST_F(Supervision, UnknownNamesHaveNoFigures) {

@@ -8,10 +8,15 @@
 namespace quoin::tests {
 
 TestDeployment::TestDeployment(const std::string& services, const std::string& head)
-    : file_(directory_.write("deployment.yaml", "version: 1\nnamespace: " + test_namespace() +
-                                                    "\ndomain: " + std::to_string(test_domain()) +
-                                                    "\n" + head + "services:\n" + services)),
+    : head_("version: 1\nnamespace: " + test_namespace() +
+            "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
+      file_(write("deployment.yaml", services)),
       deployment_(deploy::load_deployment(file_)) {}
+
+std::filesystem::path TestDeployment::write(const std::string& name,
+                                            const std::string& services) const {
+  return directory_.write(name, head_ + services);
+}
 
 Process TestDeployment::start(const std::string& service, int observers) const {
   const deploy::KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);
@@ -26,24 +31,6 @@ Process TestDeployment::quoin(std::vector<std::string> arguments) const {
     if (argument == "FILE") argument = file_.string();
   }
   return Process("quoin", arguments, directory_.path());
-}
-
-CornerRecorder::CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
-                               const std::string& service)
-    : reader_(participant, deployment.topic(service),
-              runtime::qos_preset(deployment.deployment().service(service).qos)) {}
-
-std::size_t CornerRecorder::poll() {
-  msg::Corners message;
-  while (reader_.take(message)) {
-    accounting_.receive(message.header());
-    messages_.push_back(message);
-  }
-  return messages_.size();
-}
-
-bool CornerRecorder::wait_for(std::size_t count, std::chrono::milliseconds timeout) {
-  return eventually([&] { return poll() >= count; }, timeout);
 }
 
 StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)

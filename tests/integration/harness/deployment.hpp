@@ -24,6 +24,10 @@ class TestDeployment {
   /// `services`: the text behind "services:", two spaces in. `head`: more lines before it.
   explicit TestDeployment(const std::string& services, const std::string& head = "");
 
+  /// Another deployment file for the same domain and namespace, in the same folder.
+  [[nodiscard]] std::filesystem::path write(const std::string& name,
+                                            const std::string& services) const;
+
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const TemporaryDirectory& directory() const { return directory_; }
   [[nodiscard]] const deploy::Deployment& deployment() const { return deployment_; }
@@ -31,7 +35,7 @@ class TestDeployment {
     return deploy::output_topic(deployment_, deployment_.service(service));
   }
   [[nodiscard]] runtime::ParticipantConfig participant(const std::string& name) const {
-    return {deployment_.domain, name};
+    return runtime::participant_config(deployment_, name);
   }
 
   /// Starts the process of one service; `observers` readers of this test are waited for.
@@ -41,28 +45,47 @@ class TestDeployment {
 
  private:
   TemporaryDirectory directory_;
+  std::string head_;
   std::filesystem::path file_;
   deploy::Deployment deployment_;
 };
 
-/// All corners of one service, as they come.
-class CornerRecorder {
+/// All messages of one service, as they come.
+template <class T>
+class Recorder {
  public:
-  CornerRecorder(runtime::Participant& participant, const TestDeployment& deployment,
-                 const std::string& service);
+  Recorder(runtime::Participant& participant, const TestDeployment& deployment,
+           const std::string& service)
+      : reader_(participant, deployment.topic(service),
+                runtime::output_qos(deployment.deployment().service(service))) {}
 
   /// Takes what is there; returns the number of messages so far.
-  std::size_t poll();
+  std::size_t poll() {
+    T message;
+    while (reader_.take(message)) {
+      accounting_.receive(message.header());
+      if (!accounting_.last_was_duplicate()) messages_.push_back(message);
+    }
+    return messages_.size();
+  }
   /// True once `count` messages came.
-  bool wait_for(std::size_t count, std::chrono::milliseconds timeout = std::chrono::seconds(30));
-  [[nodiscard]] const std::vector<msg::Corners>& messages() const { return messages_; }
+  bool wait_for(std::size_t count, std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
+    return eventually([&] { return poll() >= count; }, timeout);
+  }
+  /// True once the service's writer is there.
+  [[nodiscard]] bool wait_for_writer() const {
+    return reader_.wait_for_writers(1, std::chrono::seconds(30));
+  }
+  [[nodiscard]] const std::vector<T>& messages() const { return messages_; }
   [[nodiscard]] const runtime::ScanAccounting& accounting() const { return accounting_; }
 
  private:
-  runtime::Reader<msg::Corners> reader_;
+  runtime::Reader<T> reader_;
   runtime::ScanAccounting accounting_;
-  std::vector<msg::Corners> messages_;
+  std::vector<T> messages_;
 };
+
+using CornerRecorder = Recorder<msg::Corners>;
 
 /// The latest heartbeat of every service.
 class StatusRecorder {

@@ -34,9 +34,19 @@ class Pipeline {
   }
 
   void restart(std::size_t stage) {
+    take_over(stage);
+    if (stage == 0) next_ = 0;
+  }
+
+  /// Another process goes on where the present one of that stage ends.
+  void take_over(std::size_t stage) {
     ++stages_[stage].incarnation;
     stages_[stage].index = 0;
-    if (stage == 0) next_ = 0;
+  }
+
+  /// The scans come by way of another service, which has published `index` results already.
+  void rewire(std::size_t stage, const std::string& name, std::uint64_t index) {
+    stages_[stage] = {name, 1, index};
   }
 
  private:
@@ -128,6 +138,121 @@ TEST(ScanAccounting, ARestartedSourceStartsAnew) {
   EXPECT_EQ(losses[0].first_sequence, 0U);
   EXPECT_EQ(losses[0].last_sequence, 0U);
   EXPECT_EQ(accounting.received(), 21U);
+}
+
+TEST(ScanAccounting, AProcessThatTakesOverLosesNothing) {
+  for (std::size_t stage = 0; stage < 3; ++stage) {
+    SCOPED_TRACE(stage);
+    Pipeline pipeline;
+    ScanAccounting accounting;
+    for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+    pipeline.take_over(stage);
+    for (int i = 0; i < 20; ++i) EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+    EXPECT_EQ(accounting.received(), 40U);
+    EXPECT_EQ(accounting.duplicates(), 0U);
+  }
+}
+
+TEST(ScanAccounting, WhatIsMissingAroundATakeOverIsCounted) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  (void)pipeline.scan();
+  pipeline.take_over(0);
+  (void)pipeline.scan();
+  accounting.receive(pipeline.scan());
+  EXPECT_EQ(accounting.lost(), 2U);
+}
+
+TEST(ScanAccounting, AnInputThatIsRewiredLosesNothing) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  pipeline.rewire(1, "more_walls", 500);
+  pipeline.take_over(2);
+  EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+  (void)pipeline.scan(2);
+  accounting.receive(pipeline.scan());
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("wctls", 1)));
+}
+
+TEST(ScanAccounting, AnotherSensorBeginsAnew) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
+  msg::Header other = pipeline.scan();
+  other.sensor("rear");
+  other.sequence_number(7);
+  EXPECT_THAT(accounting.receive(other), IsEmpty());
+  EXPECT_EQ(accounting.received(), 21U);
+}
+
+TEST(ScanAccounting, NothingIsLostWhileNobodyListens) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  accounting.receive(pipeline.scan());
+  accounting.interrupt();
+  for (int i = 0; i < 5; ++i) (void)pipeline.scan();
+  EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
+}
+
+/// A header of a chain whose middle stage has two instances; all times in steps of a scan.
+msg::Header by_instance(std::uint64_t scan, std::uint64_t started, std::uint64_t index) {
+  msg::Header header;
+  header.sensor("front");
+  header.sequence_number(scan);
+  header.trace().resize(3);
+  const char* const names[] = {"front", "walls", "wctls"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    header.trace()[i].service(names[i]);
+    header.trace()[i].incarnation(1);
+    header.trace()[i].published(static_cast<std::int64_t>(1000 + scan));
+  }
+  header.trace()[0].index(scan);
+  header.trace()[1].incarnation(started);
+  header.trace()[1].index(index);
+  header.trace()[2].index(scan);
+  return header;
+}
+
+TEST(ScanAccounting, AStandbyThatTakesOverAnswersForTheGapAndNoMore) {
+  ScanAccounting accounting;
+  accounting.receive(by_instance(100, 1, 100));
+  // The other instance lived all the time, and made results that nobody heard.
+  msg::Header first = by_instance(104, 2, 90);
+  first.trace()[2].index(101);
+  accounting.receive(first);
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("walls", 3)));
+  // The strong one returns without a gap, but not with its first result.
+  msg::Header second = by_instance(105, 1050, 7);
+  second.trace()[2].index(102);
+  accounting.receive(second);
+  EXPECT_EQ(accounting.lost(), 3U);
+  EXPECT_EQ(accounting.received(), 3U);
+  // What the standby made of the same scan comes late.
+  accounting.receive(by_instance(105, 2, 91));
+  EXPECT_TRUE(accounting.last_was_duplicate());
+  EXPECT_EQ(accounting.duplicates(), 1U);
+}
+
+TEST(ScanAccounting, WhatWasLostBehindATakeoverIsNotTheInstances) {
+  ScanAccounting accounting;
+  accounting.receive(by_instance(100, 1, 100));
+  accounting.receive(by_instance(104, 2, 90));  // wctls made results of all three in between
+  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("link", 3)));
+}
+
+TEST(ScanAccounting, TheScansOfAnotherSourceAreNotComparedWithThoseBefore) {
+  ScanAccounting accounting;
+  accounting.receive(by_instance(100, 1, 100));
+  msg::Header other = by_instance(5000, 1, 101);
+  other.trace()[0].incarnation(3);
+  other.trace()[2].index(101);
+  EXPECT_THAT(accounting.receive(other), IsEmpty());
+  EXPECT_EQ(accounting.received(), 2U);
+  other = by_instance(20, 1, 102);
+  EXPECT_THAT(accounting.receive(other), IsEmpty()) << "the first one is heard again";
+  EXPECT_EQ(accounting.received(), 3U);
 }
 
 TEST(ScanAccounting, DoubledScansAreCountedApart) {

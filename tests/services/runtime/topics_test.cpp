@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <idl/Scan.h>
+#include <idl/Segments.h>
 #include <idl/Status.h>
+#include <memory>
 #include <numeric>
 #include <thread>
 
@@ -151,9 +153,76 @@ TEST(Topics, AQosMismatchIsToldToBothSides) {
          std::chrono::steady_clock::now() < deadline) {
     std::this_thread::yield();
   }
-  EXPECT_THAT(writer.incompatible_qos(), testing::ElementsAre(topic + ": durability"));
-  EXPECT_THAT(reader.incompatible_qos(), testing::ElementsAre(topic + ": durability"));
+  const std::string text =
+      topic + ": durability: sender offers volatile, receiver requests transient-local";
+  EXPECT_THAT(writer.incompatible_qos(), testing::ElementsAre(text));
+  EXPECT_THAT(reader.incompatible_qos(), testing::ElementsAre(text));
   EXPECT_EQ(writer.matched(), 0U);
+}
+
+TEST(Topics, AMisfitIsForgottenWithItsParticipant) {
+  Participant sender({test_domain(), test_namespace() + "/sender"});
+  const std::string topic = test_namespace() + "/front/scan";
+  TopicQos exclusive = QosPreset::sensor;
+  exclusive.strength = 1;
+  Writer<msg::Scan> writer(sender, topic, exclusive);
+  {
+    Participant receiver({test_domain(), test_namespace() + "/receiver"});
+    Reader<msg::Scan> shared(receiver, topic, QosPreset::sensor);
+    Reader<msg::Segments> other(receiver, topic + "s", exclusive);
+    while (writer.incompatible_qos().empty()) std::this_thread::yield();
+    EXPECT_THAT(writer.incompatible_qos(),
+                testing::ElementsAre(
+                    topic + ": ownership: sender offers exclusive, receiver requests shared"));
+    while (receiver.written_topics() != std::vector{topic}) std::this_thread::yield();
+  }
+  while (!writer.incompatible_qos().empty()) std::this_thread::yield();
+}
+
+TEST(Topics, OfSeveralWritersTheStrongestThatLivesIsHeard) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  const std::string topic = test_namespace() + "/front/scan";
+  TopicQos weak = QosPreset::feature;
+  weak.strength = 1;
+  weak.lease = 200ms;
+  TopicQos strong = weak;
+  strong.strength = 2;
+  Reader<msg::Scan> reader(receiver, topic, weak);
+  Writer<msg::Scan> standby(sender, topic, weak);
+  auto first = std::make_unique<Writer<msg::Scan>>(sender, topic, strong);
+  ASSERT_TRUE(reader.wait_for_writers(2, 10s));
+  ASSERT_TRUE(standby.wait_for_readers(1, 10s));
+  ASSERT_TRUE(first->wait_for_readers(1, 10s));
+  msg::Scan got;
+  const auto heard = [&](Writer<msg::Scan>& writer, std::uint64_t number,
+                         std::chrono::milliseconds timeout = 10s) {
+    EXPECT_TRUE(writer.write(scan_of(900, number)));
+    while (take_within(reader, got, timeout)) {
+      if (got.header().sequence_number() == number) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(heard(standby, 1)) << "nobody stronger has spoken yet";
+  EXPECT_TRUE(heard(*first, 2));
+  // A pause as long as a lease would let the standby through, so it may take several attempts.
+  std::uint64_t next = 3;
+  for (bool alone = false; !alone; next += 3) {
+    EXPECT_TRUE(first->write(scan_of(900, next)));
+    EXPECT_TRUE(standby.write(scan_of(900, next + 1)));
+    first->assert_liveliness();
+    EXPECT_TRUE(first->write(scan_of(900, next + 2)));
+    alone = true;
+    while (got.header().sequence_number() != next + 2) {
+      ASSERT_TRUE(take_within(reader, got));
+      alone = alone && got.header().sequence_number() != next + 1;
+    }
+  }
+  // Silent, it is replaced; then it is heard again, until it goes.
+  while (!heard(standby, next, 50ms)) ++next;
+  EXPECT_TRUE(heard(*first, ++next));
+  first.reset();
+  while (!heard(standby, next, 50ms)) ++next;
 }
 
 TEST(Topics, WaitSetWakesUp) {

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/export/systemd.hpp"
+
+#include "deploy/export/output_file.hpp"
+#include "deploy/export/systemd_text.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+std::string unit_name(const ExportPlan& plan, const std::string& id) {
+  return plan.id + "-" + id + ".service";
+}
+
+std::string head(const ExportPlan& plan) {
+  return std::string(export_marker) + "\n# Deployment: " + unit_comment(plan.file.string()) +
+         "\n\n";
+}
+
+UnitFile target(const ExportPlan& plan) {
+  std::string text = head(plan);
+  text += "[Unit]\nDescription=Quoin deployment " + plan.deployment->name_space + "\n";
+  for (const ExportedService& service : plan.services) {
+    text += "Wants=" + unit_name(plan, service.id) + "\n";
+  }
+  text += "\n[Install]\nWantedBy=multi-user.target\n";
+  return {plan.id + ".target", text};
+}
+
+/// What `quoin up` does, as far as systemd can. Its pauses do not grow before version 254.
+std::string restart_lines(const ExportPlan& plan, const ExportedService& service) {
+  if (service.restart == RestartPolicy::never) return "Restart=no\n";
+  // A source that has published everything is done.
+  std::string text = service.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
+  text += "RestartSec=1s\n";
+  // 2: a wrong configuration, 3: an unusable input. But a device or an interface may come later.
+  const bool may_come = service.serial_port || !plan.deployment->network.interfaces.empty();
+  text += std::string("RestartPreventExitStatus=") + (may_come ? "3\n" : "2 3\n");
+  return text;
+}
+
+std::string device_lines(const ExportedService& service) {
+  if (!service.serial_port) return "PrivateDevices=yes\nPrivateUsers=yes\n";
+  std::string text =
+      "SupplementaryGroups=dialout\n"
+      "PrivateDevices=no\n"
+      "DeviceAllow=char-ttyUSB rw\n"
+      "DeviceAllow=char-ttyACM rw\n";
+  const std::string& port = *service.serial_port;
+  const bool usb = port == "auto" || port.starts_with("/dev/ttyUSB") ||
+                   port.starts_with("/dev/ttyACM") || port.starts_with("/dev/rplidar-");
+  if (!usb && port.starts_with("/dev/")) text += "DeviceAllow=" + unit_word(port) + " rw\n";
+  return text;
+}
+
+std::string network_lines(const ExportPlan& plan, const ExportedService& service) {
+  // Netlink tells of the interfaces, Unix sockets lead to systemd itself.
+  std::string text = "RestrictAddressFamilies=AF_INET AF_UNIX AF_NETLINK";
+  if (service.own_network) text += " AF_INET6";
+  text += "\n";
+  const bool loopback_only = plan.deployment->network.interfaces.empty() && !service.own_network;
+  if (loopback_only) text += "IPAddressDeny=any\nIPAddressAllow=localhost\n";
+  return text;
+}
+
+constexpr const char* hardening =
+    "UMask=0077\n"
+    "CapabilityBoundingSet=\n"
+    "AmbientCapabilities=\n"
+    "NoNewPrivileges=yes\n"
+    "ProtectSystem=strict\n"
+    "ProtectHome=yes\n"
+    "PrivateTmp=yes\n"
+    "PrivateMounts=yes\n"
+    "ProtectProc=invisible\n"
+    "ProcSubset=pid\n"
+    "ProtectClock=yes\n"
+    "ProtectControlGroups=yes\n"
+    "ProtectHostname=yes\n"
+    "ProtectKernelLogs=yes\n"
+    "ProtectKernelModules=yes\n"
+    "ProtectKernelTunables=yes\n"
+    "LockPersonality=yes\n"
+    "MemoryDenyWriteExecute=yes\n"
+    "RestrictNamespaces=yes\n"
+    "RestrictRealtime=yes\n"
+    "RestrictSUIDSGID=yes\n"
+    "SystemCallArchitectures=native\n"
+    "SystemCallFilter=@system-service\n"
+    "SystemCallFilter=~@privileged @resources\n"
+    "SystemCallErrorNumber=EPERM\n"
+    "DevicePolicy=closed\n";
+
+UnitFile unit(const ExportPlan& plan, const ExportedService& service,
+              const std::filesystem::path& programs) {
+  std::string text = head(plan);
+  text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + service.label + " (" +
+          service.kind + ")\n";
+  text += "PartOf=" + plan.id + ".target\n";
+  if (!plan.deployment->network.interfaces.empty()) {
+    text += "Wants=network-online.target\nAfter=network-online.target\n";
+  }
+  // Started behind those who read its output and stopped before them.
+  for (const std::string& id : service.after) text += "After=" + unit_name(plan, id) + "\n";
+  text += "StartLimitIntervalSec=0\n";
+
+  text += std::string("\n[Service]\nType=") + (service.is_service() ? "notify" : "exec") +
+          "\nExecStart=" + unit_program((programs / service.program).string());
+  for (const std::string& argument : service.arguments(plan.file)) {
+    text += " " + unit_argument(argument);
+  }
+  text += "\n";
+  text += "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
+          plan.id + "\n";
+  text += restart_lines(plan, service);
+  // A lookup of a device's host name alone may take ten seconds.
+  if (service.is_service()) {
+    text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  }
+  text += "TimeoutStartSec=30s\nTimeoutStopSec=10s\n\n";
+  // Keys are for one user's eyes only, and a dynamic user has another number at each start.
+  text += plan.deployment->security ? std::string("User=") + user_with_keys + "\n"
+                                    : "DynamicUser=yes\n";
+  text += hardening;
+  text += device_lines(service);
+  text += network_lines(plan, service);
+  return {unit_name(plan, service.id), text};
+}
+
+}  // namespace
+
+std::vector<UnitFile> systemd_units(const ExportPlan& plan, const std::filesystem::path& programs) {
+  std::vector<UnitFile> units{target(plan)};
+  for (const ExportedService& service : plan.services) {
+    units.push_back(unit(plan, service, programs));
+  }
+  return units;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/keys/governance.hpp"
+
+namespace quoin::deploy {
+
+std::string governance_text(bool encrypt) {
+  const std::string kind = encrypt ? "ENCRYPT" : "SIGN";
+  // The whole message is signed with a key that all participants know, which keeps strangers out;
+  // content is encrypted (or signed) with a key that only the readers of the topic get.
+  return R"(<?xml version="1.0" encoding="UTF-8"?>
+<dds>
+  <domain_access_rules>
+    <domain_rule>
+      <domains><id_range><min>0</min><max>232</max></id_range></domains>
+      <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
+      <enable_join_access_control>true</enable_join_access_control>
+      <discovery_protection_kind>)" +
+         kind + R"(</discovery_protection_kind>
+      <liveliness_protection_kind>)" +
+         kind + R"(</liveliness_protection_kind>
+      <rtps_protection_kind>SIGN</rtps_protection_kind>
+      <topic_access_rules>
+        <topic_rule>
+          <topic_expression>*</topic_expression>
+          <enable_discovery_protection>true</enable_discovery_protection>
+          <enable_liveliness_protection>true</enable_liveliness_protection>
+          <enable_read_access_control>true</enable_read_access_control>
+          <enable_write_access_control>true</enable_write_access_control>
+          <metadata_protection_kind>NONE</metadata_protection_kind>
+          <data_protection_kind>)" +
+         kind + R"(</data_protection_kind>
+        </topic_rule>
+      </topic_access_rules>
+    </domain_rule>
+  </domain_access_rules>
+</dds>
+)";
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <idl/Control.h>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/apply/plan.hpp"
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/quoin/monitor.hpp"
+#include "deploy/quoin/requester.hpp"
+#include "deploy/supervision/supervisor.hpp"
+
+namespace quoin::deploy {
+
+/// Carries out a plan on the running processes, or leaves everything as it was.
+///
+/// First all new processes are started, held, and everything that could fail is tried. Only when
+/// each of them is matched with its neighbours and all methods are exchanged do they begin to
+/// publish, the replaced ones hand over and what is not wanted any more stops. From there on the
+/// only way is forward: a process that fails is killed, and what takes its place is at work.
+class Changeover {
+ public:
+  struct World {
+    Supervisor& supervisor;
+    Monitor& monitor;
+    Requester& requester;
+    /// Lets the processes be supervised for a moment; false when the deployment is to stop.
+    std::function<bool()> pump;
+    /// The last line that a service has written; "" when there is none.
+    std::function<std::string(const std::string& service)> last_line;
+  };
+
+  /// `running`: what the processes do now. `plans`: how to start the services of `wanted`, held
+  /// processes apart. All must outlive the object.
+  Changeover(World world, const Deployment& running, const Deployment& wanted, const Plan& plan,
+             const std::vector<ProcessPlan>& plans, std::chrono::milliseconds patience);
+
+  /// Throws std::runtime_error with the reason when it was rolled back.
+  void carry_out();
+
+  /// The first scan that each changed service handled as wanted, where there is one.
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& first_scans() const {
+    return first_scans_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Newcomer {
+    const Change* change;
+    const ServiceConfig* config;
+    const ProcessPlan* plan;
+    int key;
+    std::uint64_t incarnation = 0;
+  };
+
+  void start_newcomers();
+  void start(const Change& change);
+  [[nodiscard]] int readers_to_go(const ServiceConfig& service) const;
+  void wait_until_ready();
+  [[nodiscard]] bool ready(Newcomer& newcomer);
+  [[nodiscard]] std::uint64_t incarnation_of(int key) const;
+  [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
+  void swap_methods();
+  void roll_back();
+  void adopt_newcomers();
+  void begin(const Newcomer& newcomer);
+  void take_over(const Newcomer& newcomer);
+  [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
+                                       std::chrono::milliseconds patience);
+  void begin_with(const Newcomer& newcomer, std::uint64_t scan);
+  void stop_removed();
+
+  [[nodiscard]] bool swap(const ServiceConfig& config, std::string& refusal);
+  [[nodiscard]] std::optional<msg::ControlReply> ask(const std::string& service,
+                                                     std::uint64_t incarnation,
+                                                     msg::ControlAction action,
+                                                     std::uint64_t sequence_number = 0);
+  /// False after `patience`, or when the deployment is to stop.
+  [[nodiscard]] bool wait_until(const std::function<bool()>& condition,
+                                std::chrono::milliseconds patience);
+  void end(int key);
+
+  World world_;
+  const Deployment& running_;
+  const Deployment& wanted_;
+  const Plan& plan_;
+  const std::vector<ProcessPlan>& plans_;
+  std::chrono::milliseconds patience_;
+  std::vector<Newcomer> newcomers_;
+  std::map<std::string, int> predecessors_;      // keys of the processes that are replaced
+  std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
+  std::vector<std::string> swapped_;
+  std::map<std::string, std::uint64_t> first_scans_;
+};
+
+/// What the processes of a deployment do at present: as `deployment`, but with the methods and
+/// parameters that were exchanged by request. `pump` as above.
+[[nodiscard]] Deployment described_by_its_services(const Deployment& deployment,
+                                                   const Supervisor& supervisor,
+                                                   Requester& requester,
+                                                   const std::function<bool()>& pump);
+
+}  // namespace quoin::deploy

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Publishes scans of a rectangular room with Cyclone DDS, in place of a source of Quoin.
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "Scan.h"
+#include "cyclone_endpoint.h"
+
+enum { rays = 720 };
+
+static const double pi = 3.14159265358979323846;
+
+// Walls of the room, as seen from the sensor [m].
+static const double wall_front = 2.5;
+static const double wall_left = 1.25;
+static const double wall_back = -1.5;
+static const double wall_right = -1.75;
+
+/// Range [m] of the wall in direction `bearing` [rad].
+static double range_of_room(double bearing) {
+  const double x = cos(bearing);
+  const double y = sin(bearing);
+  return fmin((x >= 0.0 ? wall_front : wall_back) / x, (y >= 0.0 ? wall_left : wall_right) / y);
+}
+
+static int64_t now(void) { return dds_time(); }  // [ns since the Unix epoch]
+
+static void fill_rays(float* bearings, float* ranges) {
+  for (int i = 0; i < rays; ++i) {
+    // Half a step off the axes, so that no ray runs along a wall's normal to infinity.
+    const double bearing = 2.0 * pi * (i + 0.5) / rays - pi;
+    bearings[i] = (float)bearing;
+    ranges[i] = (float)range_of_room(bearing);
+  }
+  // What REP-117 says of rays without a range.
+  ranges[10] = INFINITY;
+  ranges[11] = -INFINITY;
+  ranges[12] = NAN;
+}
+
+/// Waits until `count` readers are there; what is written before that is lost.
+static void wait_for_readers(dds_entity_t writer, uint32_t count) {
+  const dds_entity_t wait_set = made(dds_create_waitset(dds_get_participant(writer)), "a wait set");
+  dds_set_status_mask(writer, DDS_PUBLICATION_MATCHED_STATUS);
+  dds_waitset_attach(wait_set, writer, 0);
+  dds_publication_matched_status_t matched;
+  while (dds_get_publication_matched_status(writer, &matched) == DDS_RETCODE_OK &&
+         matched.current_count < count) {
+    dds_waitset_wait(wait_set, NULL, 0, DDS_INFINITY);
+  }
+  dds_delete(wait_set);
+}
+
+int main(int argc, char** argv) {
+  if (argc != 6) {
+    fprintf(stderr,
+            "usage: %s DOMAIN NAMESPACE SERVICE COUNT READERS\npublishes COUNT scans at 20 Hz as "
+            "NAMESPACE/SERVICE/scan once READERS are there\n",
+            argv[0]);
+    return 2;
+  }
+  char* service = argv[3];
+  const int32_t count = positive_number(argv[4], "the count");
+  const int32_t readers = positive_number(argv[5], "the number of readers");
+  char topic_name[256];
+  const int length = snprintf(topic_name, sizeof topic_name, "%s/%s/scan", argv[2], service);
+  if (length < 0 || (size_t)length >= sizeof topic_name) {
+    fprintf(stderr, "namespace and service are too long\n");
+    return 2;
+  }
+
+  const dds_entity_t participant = join_domain(argv[1]);
+  const dds_entity_t topic =
+      made(dds_create_topic(participant, &quoin_msg_Scan_desc, topic_name, NULL, NULL), topic_name);
+  dds_qos_t* qos = quoin_qos(QOS_SENSOR);
+  const dds_entity_t writer = made(dds_create_writer(participant, topic, qos, NULL), topic_name);
+  dds_delete_qos(qos);
+
+  float bearings[rays];
+  float ranges[rays];
+  fill_rays(bearings, ranges);
+  // The source's entry in the trace. Its incarnation tells a restarted source from the one before.
+  quoin_msg_StageTrace trace = {.service = service, .method = "", .incarnation = (uint64_t)now()};
+  quoin_msg_Scan scan = {
+      .header = {.sensor = service,
+                 .frame = "laser",
+                 .trace = {._maximum = 1, ._length = 1, ._buffer = &trace}},
+      .sensor_model = {.range_stddev = 0.010, .bearing_stddev = 0.0, .range_bias_stddev = 0.0},
+      .range_min = 0.1F,
+      .range_max = 40.0F,
+      .duration = 0.05F,
+      .bearings = {._maximum = rays, ._length = rays, ._buffer = bearings},
+      .ranges = {._maximum = rays, ._length = rays, ._buffer = ranges},
+  };
+  wait_for_readers(writer, (uint32_t)readers);
+  for (int32_t i = 0; i < count; ++i) {
+    scan.header.stamp = now();
+    dds_sleepfor(DDS_MSECS(50));  // the revolution
+    scan.header.sequence_number = (uint64_t)i;
+    trace.index = (uint64_t)i;
+    trace.received = trace.published = now();
+    const dds_return_t written = dds_write(writer, &scan);
+    if (written != DDS_RETCODE_OK) {
+      fprintf(stderr, "cannot write to %s: %s\n", topic_name, dds_strretcode(written));
+      return 1;
+    }
+  }
+  // What has been written must reach the readers before the writer goes.
+  if (dds_wait_for_acks(writer, DDS_SECS(5)) != DDS_RETCODE_OK) {
+    fprintf(stderr, "not all readers have acknowledged the last scans\n");
+    return 1;
+  }
+  return dds_delete(participant) == DDS_RETCODE_OK ? 0 : 1;
+}

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "message_json.h"
+
+static void write_floats(JsonWriter* writer, const char* name, const dds_sequence_float* values) {
+  json_begin_array(writer, name);
+  for (uint32_t i = 0; i < values->_length; ++i) json_float(writer, NULL, values->_buffer[i]);
+  json_end_array(writer);
+}
+
+static void write_header(JsonWriter* writer, const quoin_msg_Header* header) {
+  json_begin_object(writer, "header");
+  json_string(writer, "sensor", header->sensor);
+  json_unsigned(writer, "sequence_number", header->sequence_number);
+  json_signed(writer, "stamp", header->stamp);
+  json_string(writer, "frame", header->frame);
+  json_begin_array(writer, "trace");
+  for (uint32_t i = 0; i < header->trace._length; ++i) {
+    const quoin_msg_StageTrace* stage = &header->trace._buffer[i];
+    json_begin_object(writer, NULL);
+    json_string(writer, "service", stage->service);
+    json_string(writer, "method", stage->method);
+    json_unsigned(writer, "incarnation", stage->incarnation);
+    json_unsigned(writer, "index", stage->index);
+    json_signed(writer, "received", stage->received);
+    json_signed(writer, "published", stage->published);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
+static void write_sensor_model(JsonWriter* writer, const quoin_msg_SensorModel* model) {
+  json_begin_object(writer, "sensor_model");
+  json_double(writer, "range_stddev", model->range_stddev);
+  json_double(writer, "bearing_stddev", model->bearing_stddev);
+  json_double(writer, "range_bias_stddev", model->range_bias_stddev);
+  json_end_object(writer);
+}
+
+static void write_point(JsonWriter* writer, const char* name, const quoin_msg_Point* point) {
+  json_begin_object(writer, name);
+  json_double(writer, "x", point->x);
+  json_double(writer, "y", point->y);
+  json_end_object(writer);
+}
+
+static void write_line(JsonWriter* writer, const quoin_msg_Line* line) {
+  json_begin_object(writer, NULL);
+  json_double(writer, "alpha", line->alpha);
+  json_double(writer, "r", line->r);
+  json_double(writer, "covariance_alpha", line->covariance_alpha);
+  json_double(writer, "covariance_alpha_r", line->covariance_alpha_r);
+  json_double(writer, "covariance_r", line->covariance_r);
+  write_point(writer, "start", &line->start);
+  write_point(writer, "end", &line->end);
+  json_unsigned(writer, "points", line->points);
+  json_double(writer, "chi_square", line->chi_square);
+  json_unsigned(writer, "segment", line->segment);
+  json_end_object(writer);
+}
+
+static void write_corner(JsonWriter* writer, const quoin_msg_Corner* corner) {
+  json_begin_object(writer, NULL);
+  json_double(writer, "x", corner->x);
+  json_double(writer, "y", corner->y);
+  json_double(writer, "covariance_xx", corner->covariance_xx);
+  json_double(writer, "covariance_xy", corner->covariance_xy);
+  json_double(writer, "covariance_yy", corner->covariance_yy);
+  json_double(writer, "ellipse_area", corner->ellipse_area);
+  json_double(writer, "ellipse95_major", corner->ellipse95_major);
+  json_double(writer, "ellipse95_minor", corner->ellipse95_minor);
+  json_double(writer, "ellipse95_direction", corner->ellipse95_direction);
+  json_double(writer, "angle", corner->angle);
+  json_double(writer, "gap", corner->gap);
+  json_double(writer, "extrapolation", corner->extrapolation);
+  json_unsigned(writer, "first_line", corner->first_line);
+  json_unsigned(writer, "second_line", corner->second_line);
+  json_end_object(writer);
+}
+
+void write_scan(JsonWriter* writer, const char* name, const quoin_msg_Scan* scan) {
+  json_begin_object(writer, name);
+  write_header(writer, &scan->header);
+  write_sensor_model(writer, &scan->sensor_model);
+  json_float(writer, "range_min", scan->range_min);
+  json_float(writer, "range_max", scan->range_max);
+  json_float(writer, "duration", scan->duration);
+  write_floats(writer, "bearings", &scan->bearings);
+  write_floats(writer, "ranges", &scan->ranges);
+  write_floats(writer, "qualities", &scan->qualities);
+  write_floats(writer, "time_offsets", &scan->time_offsets);
+  json_end_object(writer);
+}
+
+void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segments* segments) {
+  json_begin_object(writer, name);
+  write_header(writer, &segments->header);
+  write_sensor_model(writer, &segments->sensor_model);
+  json_unsigned(writer, "scan_points", segments->scan_points);
+  write_floats(writer, "bearings", &segments->bearings);
+  write_floats(writer, "ranges", &segments->ranges);
+  json_begin_array(writer, "segments");
+  for (uint32_t i = 0; i < segments->segments._length; ++i) {
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "begin", segments->segments._buffer[i].begin);
+    json_unsigned(writer, "end", segments->segments._buffer[i].end);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
+void write_lines(JsonWriter* writer, const char* name, const quoin_msg_Lines* lines) {
+  json_begin_object(writer, name);
+  write_header(writer, &lines->header);
+  write_sensor_model(writer, &lines->sensor_model);
+  json_string(writer, "covariance_mode", lines->covariance_mode);
+  json_begin_array(writer, "lines");
+  for (uint32_t i = 0; i < lines->lines._length; ++i) write_line(writer, &lines->lines._buffer[i]);
+  json_end_array(writer);
+  json_begin_array(writer, "failures");
+  for (uint32_t i = 0; i < lines->failures._length; ++i) {
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "segment", lines->failures._buffer[i].segment);
+    json_string(writer, "reason", lines->failures._buffer[i].reason);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
+void write_corners(JsonWriter* writer, const char* name, const quoin_msg_Corners* corners) {
+  json_begin_object(writer, name);
+  write_header(writer, &corners->header);
+  json_string(writer, "covariance_mode", corners->covariance_mode);
+  json_begin_array(writer, "corners");
+  for (uint32_t i = 0; i < corners->corners._length; ++i) {
+    write_corner(writer, &corners->corners._buffer[i]);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
+void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceStatus* status) {
+  json_begin_object(writer, name);
+  json_string(writer, "service", status->service);
+  json_string(writer, "kind", status->kind);
+  json_string(writer, "method", status->method);
+  json_string(writer, "host", status->host);
+  json_unsigned(writer, "pid", status->pid);
+  json_unsigned(writer, "state", status->state);
+  json_unsigned(writer, "received", status->received);
+  json_unsigned(writer, "published", status->published);
+  json_unsigned(writer, "lost", status->lost);
+  json_unsigned(writer, "upstream_lost", status->upstream_lost);
+  json_end_object(writer);
+}

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/soak/chaos.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <signal.h>
+
+#include "core/fitting/fitters.hpp"
+
+namespace quoin::soak {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+Chaos::Clock::duration seconds(double time) {
+  return std::chrono::duration_cast<Chaos::Clock::duration>(std::chrono::duration<double>(time));
+}
+
+}  // namespace
+
+Chaos::Chaos(const tests::TestDeployment& deployment,
+             std::vector<std::filesystem::path> compositions, std::uint64_t seed)
+    : deployment_(deployment),
+      compositions_(std::move(compositions)),
+      random_(seed),
+      participant_(deployment.participant("chaos")),
+      statuses_(participant_, deploy::status_topic(deployment.deployment().name_space),
+                runtime::QosPreset::state),
+      requests_(participant_, deploy::control_request_topic(deployment.deployment().name_space),
+                runtime::QosPreset::control),
+      replies_(participant_, deploy::control_reply_topic(deployment.deployment().name_space),
+               runtime::QosPreset::control),
+      next_(Clock::now() + seconds(5.0)) {}
+
+Chaos::~Chaos() {
+  for (const Pause& pause : pauses_) ::kill(pause.process, SIGCONT);
+}
+
+double Chaos::uniform(double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random_);
+}
+
+std::size_t Chaos::below(std::size_t count) {
+  return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+}
+
+void Chaos::step() {
+  const auto now = Clock::now();
+  listen();
+  end_what_is_over(now);
+  if (now < next_) return;
+  act();
+  next_ = now + seconds(uniform(0.3, 3.0));
+}
+
+void Chaos::listen() {
+  msg::ServiceStatus status;
+  while (statuses_.take(status)) {
+    msg::ServiceStatus& newest = latest_[status.service()];
+    if (status.stamp() < newest.stamp()) continue;
+    newest = status;
+    processes_[static_cast<pid_t>(status.pid())] = status.service();
+  }
+  msg::ControlReply reply;
+  while (replies_.take(reply)) {
+    if (reply.requester() == "chaos") ++counts_[reply.accepted() ? "accepted" : "refused"];
+  }
+}
+
+void Chaos::end_what_is_over(Clock::time_point now) {
+  std::erase_if(pauses_, [&](const Pause& pause) {
+    if (now < pause.ends) return false;
+    ::kill(pause.process, SIGCONT);
+    return true;
+  });
+  std::erase_if(visitors_, [&](const Visitor& visitor) { return now >= visitor.leaves; });
+  if (apply_) {
+    if (const auto code = apply_->wait(milliseconds(0))) {
+      ++counts_["apply ended with " + std::to_string(*code)];
+      apply_.reset();
+    }
+  }
+}
+
+void Chaos::settle() {
+  for (Pause& pause : pauses_) pause.ends = Clock::now();
+  for (Visitor& visitor : visitors_) visitor.leaves = Clock::now();
+  const auto deadline = Clock::now() + std::chrono::seconds(60);
+  do {
+    listen();
+    end_what_is_over(Clock::now());
+  } while (apply_ && Clock::now() < deadline);
+}
+
+void Chaos::act() {
+  using Action = void (Chaos::*)();
+  // An action stands here as often as it is meant to be likely.
+  static constexpr std::array<Action, 10> actions{
+      &Chaos::kill_one, &Chaos::kill_one,     &Chaos::pause_one,    &Chaos::pause_one,
+      &Chaos::swap_one, &Chaos::swap_one,     &Chaos::ask_nonsense, &Chaos::apply_another,
+      &Chaos::invite,   &Chaos::apply_another};
+  (this->*actions[below(actions.size())])();
+}
+
+std::vector<Member> Chaos::members() const {
+  std::vector<Member> members;
+  for (const auto& [name, status] : latest_) {
+    const auto process = static_cast<pid_t>(status.pid());
+    const bool works = status.state() == msg::STATE_ACTIVE && ::kill(process, 0) == 0;
+    if (works) members.push_back({name, process, true});
+  }
+  return members;
+}
+
+std::optional<Member> Chaos::any_member() {
+  const std::vector<Member> all = members();
+  if (all.empty()) return std::nullopt;
+  return all[below(all.size())];
+}
+
+void Chaos::kill_one() {
+  const auto member = any_member();
+  if (!member) return;
+  ::kill(member->process, SIGKILL);
+  ++counts_["killed"];
+}
+
+void Chaos::pause_one() {
+  const auto member = any_member();
+  if (!member) return;
+  ::kill(member->process, SIGSTOP);
+  pauses_.push_back({member->process, Clock::now() + seconds(uniform(0.05, 2.0))});
+  ++counts_["paused"];
+}
+
+void Chaos::swap_one() {
+  const auto& methods = Fitters::descriptions();
+  msg::ControlRequest request;
+  request.service(below(2) == 0 ? "second" : "steady@10");
+  request.requester("chaos");
+  request.request(++request_);
+  request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
+  request.method(methods[below(methods.size())].name);
+  requests_.write(request);
+  ++counts_["swaps asked for"];
+}
+
+std::string Chaos::nonsense() {
+  std::string text(below(8) == 0 ? 100'000 : below(40), ' ');
+  for (char& character : text) character = static_cast<char>(1 + below(255));
+  return text;
+}
+
+void Chaos::ask_nonsense() {
+  msg::ControlRequest request;
+  for (int k = 0; k < 200; ++k) {
+    request.service(below(2) == 0 ? "second" : nonsense());
+    request.requester("chaos");
+    request.request(++request_);
+    request.action(below(2) == 0 ? static_cast<msg::ControlAction>(99)
+                                 : msg::ControlAction::CONTROL_SET_PARAMETERS);
+    request.method(nonsense());
+    request.parameters().resize(below(3));
+    for (msg::ParameterSetting& setting : request.parameters()) {
+      setting.name(nonsense());
+      setting.value(nonsense());
+    }
+    requests_.write(request);
+  }
+  ++counts_["bursts of nonsense"];
+}
+
+void Chaos::apply_another() {
+  if (apply_) return;
+  const auto& file = compositions_[below(compositions_.size())];
+  apply_.emplace(deployment_.quoin({"apply", file.string()}));
+  ++counts_["applied"];
+}
+
+void Chaos::invite() {
+  Visitor visitor;
+  visitor.participant = std::make_unique<runtime::Participant>(deployment_.participant("visitor"));
+  visitor.reader = std::make_unique<runtime::Reader<msg::Corners>>(
+      *visitor.participant, deployment_.topic("second_corners"), runtime::QosPreset::feature);
+  visitor.leaves = Clock::now() + seconds(uniform(0.5, 5.0));
+  visitors_.push_back(std::move(visitor));
+  ++counts_["visitors"];
+}
+
+}  // namespace quoin::soak

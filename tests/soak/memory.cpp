@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/soak/memory.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <unistd.h>
+
+namespace quoin::soak {
+
+namespace {
+
+constexpr std::size_t warm_up = 20;  // samples: buffers and discovery data reach their size
+constexpr std::size_t window = 10;
+constexpr std::size_t shortest = warm_up + 3 * window;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void Memory::sample(const std::map<pid_t, std::string>& processes) {
+  const auto now = Clock::now();
+  if (now < next_) return;
+  next_ = now + std::chrono::seconds(1);
+  for (const auto& [process, service] : processes) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+    double total = 0.0;
+    double resident = 0.0;
+    if (!(file >> total >> resident) || resident == 0.0) continue;  // gone, or not yet reaped
+    History& history = histories_[process];
+    history.service = service;
+    history.samples.push_back(resident * static_cast<double>(::sysconf(_SC_PAGESIZE)));
+  }
+}
+
+std::vector<Memory::Growth> Memory::growths() const {
+  std::vector<Growth> growths;
+  for (const auto& [process, history] : histories_) {
+    if (history.samples.size() < shortest) continue;
+    const auto begin = history.samples.begin() + warm_up;
+    growths.push_back({history.service, median({begin, begin + window}),
+                       median({history.samples.end() - window, history.samples.end()})});
+  }
+  return growths;
+}
+
+}  // namespace quoin::soak

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace quoin::soak {
+
+/// How the resident memory of processes develops, from once they have warmed up.
+class Memory {
+ public:
+  /// Takes a sample of each process, when the last one is a second old.
+  void sample(const std::map<pid_t, std::string>& processes);
+
+  struct Growth {
+    std::string service;
+    double before = 0.0;  ///< [byte] median of the first ten samples after the warm-up
+    double after = 0.0;   ///< [byte] median of the last ten
+  };
+  /// Of every process that lived long enough to say.
+  [[nodiscard]] std::vector<Growth> growths() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct History {
+    std::string service;
+    std::vector<double> samples;  // [byte] one a second
+  };
+  Clock::time_point next_;
+  std::map<pid_t, History> histories_;
+};
+
+}  // namespace quoin::soak
