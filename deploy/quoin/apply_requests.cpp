@@ -10,6 +10,10 @@
 
 namespace quoin::deploy {
 
+namespace {
+constexpr std::size_t longest_text = 4096;  // which every answer repeats
+}
+
 ApplyRequest apply_request(const msg::ControlRequest& request) {
   ApplyRequest result;
   result.file = request.file();
@@ -31,7 +35,7 @@ ApplyRequests::ApplyRequests(runtime::Participant& participant, const std::strin
 // Answers what needs no work.
 bool ApplyRequests::next(msg::ControlRequest& request) {
   while (reader_.take(request)) {
-    if (request.service() != name_) continue;
+    if (request.service() != name_ || request.requester().size() > longest_text) continue;
     if (request.action() == msg::ControlAction::CONTROL_APPLY) return true;
     msg::ControlReply answer;
     answer.accepted(request.action() == msg::ControlAction::CONTROL_DESCRIBE);
