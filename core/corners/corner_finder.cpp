@@ -5,10 +5,14 @@
 namespace quoin {
 
 LineSegment line_segment(const LineEstimate& estimate, const PointsView& points) {
+  return line_segment(estimate, estimate.line.normal(), points);
+}
+
+LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
+                         const PointsView& points) {
   LineSegment segment;
   segment.estimate = estimate;
   if (points.size() == 0) return segment;
-  const Eigen::Vector2d normal = estimate.line.normal();
   const auto projection = [&](std::size_t i) -> Eigen::Vector2d {
     const Eigen::Vector2d point(points.x[i], points.y[i]);
     return point - (normal.dot(point) - estimate.line.r) * normal;

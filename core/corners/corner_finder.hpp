@@ -25,6 +25,10 @@ struct LineSegment {
 /// The line with the projections of the first and the last of the points it was fitted to.
 [[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const PointsView& points);
 
+/// The same for who has the unit normal of the line already, such as from its fit.
+[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
+                                       const PointsView& points);
+
 /// Corner of two lines of a scan.
 struct Corner {
   CornerEstimate estimate;

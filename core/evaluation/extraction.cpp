@@ -29,7 +29,7 @@ void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
       failures_.push_back(fit.failure);
       continue;
     }
-    lines_.push_back(line_segment(fit.estimate, points));
+    lines_.push_back(line_segment(fit.estimate, fit.normal, points));
     fitted_.push_back(segment);
   }
   finder_(lines_, fitting.range_bias_stddev, corners_);

@@ -68,22 +68,32 @@ using FailureCounts = std::array<std::size_t, EnumNames<FitFailure>::names.size(
 /// Line fitted to the points of one segment, or the reason why there is none.
 struct FitResult {
   LineEstimate estimate;
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit vector, estimate.line.normal()
   FitFailure failure = FitFailure::none;
   int iterations = 1;
   bool converged = true;
 
   [[nodiscard]] bool ok() const { return failure == FitFailure::none; }
-  [[nodiscard]] static FitResult failed(FitFailure reason) { return {{}, reason, 0, false}; }
+  [[nodiscard]] static FitResult failed(FitFailure reason) {
+    return {{}, Eigen::Vector2d::UnitX(), reason, 0, false};
+  }
 
   /// Fails as `not_finite` when a number is not. A variance that is 0 but for rounding stays
   /// positive.
   [[nodiscard]] static FitResult fitted(const Line& line, const Eigen::Matrix2d& covariance) {
+    return fitted(line, line.normal(), covariance);
+  }
+
+  /// The same for who has the unit normal of the line already.
+  [[nodiscard]] static FitResult fitted(const Line& line, const Eigen::Vector2d& normal,
+                                        const Eigen::Matrix2d& covariance) {
     if (!std::isfinite(line.alpha) || !std::isfinite(line.r) || !covariance.allFinite()) {
       return failed(FitFailure::not_finite);
     }
     FitResult result;
     result.estimate = {line, covariance};
     result.estimate.covariance.diagonal() = covariance.diagonal().cwiseMax(0.0);
+    result.normal = normal;
     return result;
   }
 };

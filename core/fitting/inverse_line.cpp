@@ -10,23 +10,6 @@
 
 namespace quoin {
 
-std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx, double vy) {
-  // det M is the sum over pairs of squared cross products, so that it is compared with what
-  // rounding leaves of M's own products; NaN fails the comparison.
-  constexpr double rounding = 1e-13;
-  const double determinant = m.xx * m.yy - m.xy * m.xy;
-  const double half_trace = 0.5 * (m.xx + m.yy);
-  if (!(determinant > rounding * half_trace * half_trace)) return std::nullopt;
-  InverseLine line;
-  const double scale = 1.0 / determinant;
-  line.inverse = {m.yy * scale, -m.xy * scale, m.xx * scale};
-  line.q = {line.inverse.xx * vx + line.inverse.xy * vy,
-            line.inverse.xy * vx + line.inverse.yy * vy};
-  line.v = {vx, vy};
-  line.trace = m.xx + m.yy;
-  return line;
-}
-
 void add_bearing_bias(const InverseLine& line, double bearing_variance, Symmetric2& influence) {
   const Eigen::Vector2d bias = bearing_variance * (1.5 * line.v - line.trace * line.q);
   influence.xx += bias.x() * bias.x();
@@ -37,16 +20,16 @@ void add_bearing_bias(const InverseLine& line, double bearing_variance, Symmetri
 FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence) {
   const double a = line.q.x();
   const double b = line.q.y();
-  const double norm_squared = a * a + b * b;
-  const double r = 1.0 / std::sqrt(norm_squared);
+  const double r_squared = 1.0 / (a * a + b * b);
+  const double r = std::sqrt(r_squared);
 
   // Rows of d(alpha, r)/d(A, B) M^-1. With the sign of y turned this is the chain of WCTLS eq. (23)
   // from Q to the unit normal and the distance, and on to alpha.
   const Symmetric2& w = line.inverse;
-  const double alpha_a = -b / norm_squared;
-  const double alpha_b = a / norm_squared;
-  const double r_a = -a * r / norm_squared;
-  const double r_b = -b * r / norm_squared;
+  const double alpha_a = -b * r_squared;
+  const double alpha_b = a * r_squared;
+  const double r_a = -alpha_b * r;
+  const double r_b = alpha_a * r;
   const double alpha_x = alpha_a * w.xx + alpha_b * w.xy;
   const double alpha_y = alpha_a * w.xy + alpha_b * w.yy;
   const double r_x = r_a * w.xx + r_b * w.xy;
@@ -59,7 +42,7 @@ FitResult to_normal_form(const InverseLine& line, const Symmetric2& influence) {
   covariance(0, 1) = product(alpha_x, alpha_y, r_x, r_y);
   covariance(1, 0) = covariance(0, 1);
   covariance(1, 1) = product(r_x, r_y, r_x, r_y);
-  return FitResult::fitted({direction_of(a, b), r}, covariance);
+  return FitResult::fitted({direction_of(a, b), r}, {a * r, b * r}, covariance);
 }
 
 FitFailure reason_of_singularity(const PointsView& points) {

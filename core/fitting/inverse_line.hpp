@@ -20,8 +20,23 @@ struct InverseLine {
   Eigen::Vector2d v = Eigen::Vector2d::Zero();
   double trace = 0.0;  ///< of M
 };
-[[nodiscard]] std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx,
-                                                            double vy);
+[[nodiscard]] inline std::optional<InverseLine> solve_inverse_line(const Symmetric2& m, double vx,
+                                                                   double vy) {
+  // det M is the sum over pairs of squared cross products, so that it is compared with what
+  // rounding leaves of M's own products; NaN fails the comparison.
+  constexpr double rounding = 1e-13;
+  const double determinant = m.xx * m.yy - m.xy * m.xy;
+  const double half_trace = 0.5 * (m.xx + m.yy);
+  if (!(determinant > rounding * half_trace * half_trace)) return std::nullopt;
+  InverseLine line;
+  const double scale = 1.0 / determinant;
+  line.inverse = {m.yy * scale, -m.xy * scale, m.xx * scale};
+  line.q = {line.inverse.xx * vx + line.inverse.xy * vy,
+            line.inverse.xy * vx + line.inverse.yy * vy};
+  line.v = {vx, vy};
+  line.trace = m.xx + m.yy;
+  return line;
+}
 
 /// Adds the square of the bias that noise of the bearings gives the line to the summed influences
 /// on M q, whose expectation it makes that of the squared error. The noise turns the regressors p,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "core/fitting/fit.hpp"
@@ -29,11 +31,14 @@ struct InverseRangeSums {
   }
 };
 
-[[nodiscard]] InverseRangeSums inverse_range_sums(const PointsView& points);
+/// Of points [begin, end).
+[[nodiscard]] InverseRangeSums inverse_range_sums(const PointsView& points, std::size_t begin,
+                                                  std::size_t end);
 
 /// Sum over the points of the outer products of their exact first-order influences on M q: the
-/// covariance of q = (A, B) once multiplied by M^-1 from both sides.
-[[nodiscard]] Symmetric2 inverse_range_influence(const PointsView& points, const Eigen::Vector2d& q,
+/// covariance of q = (A, B) once multiplied by M^-1 from both sides. The line is that of the
+/// points.
+[[nodiscard]] Symmetric2 inverse_range_influence(const PointsView& points, const InverseLine& line,
                                                  const SensorModel& sensor);
 
 /// The same if one range error and one bearing error were common to all points: the outer products

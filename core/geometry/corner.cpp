@@ -26,9 +26,10 @@ std::optional<Eigen::Vector2d> intersection(const Line& first, const Eigen::Vect
   if (!(std::abs(sine) > parallel)) return std::nullopt;
 
   // WCTLS eq. (24), (25) with (a, b, c) = (cos alpha, sin alpha, -r).
+  const double scale = 1.0 / sine;
   const Eigen::Vector2d position(
-      (first.r * second_normal.y() - second.r * first_normal.y()) / sine,
-      (second.r * first_normal.x() - first.r * second_normal.x()) / sine);
+      (first.r * second_normal.y() - second.r * first_normal.y()) * scale,
+      (second.r * first_normal.x() - first.r * second_normal.x()) * scale);
   if (!position.allFinite()) return std::nullopt;
   return position;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "core/segmentation/coarse_points.hpp"
 #include "core/segmentation/segment.hpp"
-#include "core/sensor/points.hpp"
 #include "core/sensor/sensor_model.hpp"
 
 namespace quoin {
@@ -25,12 +25,12 @@ class BreakpointDetector {
 
   /// Fills `clusters` with the runs between breaks, ascending; empty without points. Returns
   /// whether the last point and the first belong to different surfaces.
-  bool find(const PointsView& points, const SensorModel& sensor, std::vector<Segment>& clusters);
+  bool find(const CoarsePoints& points, const SensorModel& sensor, std::vector<Segment>& clusters);
 
  private:
-  double sine_;
-  double cosine_;
-  std::vector<double> excess_;  // of point i over what point i - 1 allows; > 0 is a break
+  float sine_;
+  float cosine_;
+  std::vector<std::uint8_t> breaks_;  // 1 for each point that belongs to a new surface
 };
 
 }  // namespace quoin

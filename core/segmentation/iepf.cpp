@@ -7,26 +7,27 @@ namespace quoin {
 Iepf::Iepf(const Parameters& parameters) : builder_(parameters) {}
 
 void Iepf::split(const PointsView& points, const Segment& cluster) {
-  // The leftmost is on top, so that pieces come out in order. Chords share the vertex, pieces do
-  // not: it stays with the left.
+  // From left to right, so that pieces come out in order. Chords share the vertex, pieces do not:
+  // it stays with the left.
   std::size_t next_begin = cluster.begin;
-  stack_.clear();
-  stack_.push_back(cluster);
-  while (!stack_.empty()) {
-    const Segment chord = stack_.back();
+  Segment chord = cluster;
+  waiting_.clear();
+  while (true) {
     if (chord.size() >= 3) {
       const FarthestPoint farthest =
-          farthest_from_chord(points.subview(chord.begin, chord.end), builder_.tolerance());
-      if (farthest.beyond() && farthest.index > 0 && farthest.index + 1 < chord.size()) {
+          farthest_from_chord(points, builder_.coarse_points(), chord, builder_.tolerance());
+      if (farthest.index > 0 && farthest.index + 1 < chord.size() && farthest.beyond()) {
         const std::size_t vertex = chord.begin + farthest.index;
-        stack_.back() = {vertex, chord.end};
-        stack_.push_back({chord.begin, vertex + 1});
+        waiting_.push_back({vertex, chord.end});
+        chord.end = vertex + 1;
         continue;
       }
     }
-    stack_.pop_back();
     builder_.add({next_begin, chord.end});
     next_begin = chord.end;
+    if (waiting_.empty()) return;
+    chord = waiting_.back();
+    waiting_.pop_back();
   }
 }
 

@@ -36,7 +36,7 @@ class Iepf {
   void split(const PointsView& points, const Segment& cluster);
 
   SegmentBuilder builder_;
-  std::vector<Segment> stack_;  // still to be judged
+  std::vector<Segment> waiting_;  // chords right of the one being judged, the leftmost last
 };
 
 }  // namespace quoin

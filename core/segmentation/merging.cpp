@@ -22,8 +22,7 @@ Match match_of(const PointsView& points, const Piece& first, const Piece& second
   const bool first_is_longer = first.segment.size() >= second.segment.size();
   const InnerFit& longer = first_is_longer ? first.fit : second.fit;
   const std::size_t outer = first_is_longer ? second.segment.end - 1 : first.segment.begin;
-  const PointsView outermost = points.subview(outer, outer + 1);
-  if (farthest_from(normal_line(longer), outermost, tolerance).beyond()) return match;
+  if (is_beyond(normal_line(longer), points, outer, tolerance)) return match;
 
   InverseRangeSums sums = first.fit.sums;
   sums += second.fit.sums;

@@ -24,7 +24,8 @@ InnerFit inner_fit(const InverseRangeSums& sums) {
 }
 
 NormalLine normal_line(const InnerFit& fit) {
-  return {fit.a / fit.norm, fit.b / fit.norm, 1.0 / fit.norm};
+  const double offset = 1.0 / fit.norm;
+  return {fit.a * offset, fit.b * offset, offset};
 }
 
 std::size_t largest_gap(std::size_t min_points) {
@@ -54,7 +55,7 @@ void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
     const Segment& segment = pieces[i].segment;
     const std::size_t margin = std::min(left_out_at_ends, segment.size() / 4);
     pieces[i].fit =
-        inner_fit(inverse_range_sums(points.subview(segment.begin + margin, segment.end - margin)));
+        inner_fit(inverse_range_sums(points, segment.begin + margin, segment.end - margin));
   }
 }
 

@@ -38,11 +38,15 @@ double before(const PointsView& points, std::size_t i, const Intersection& p) {
   return points.cosine[i] * p.y - points.sine[i] * p.x;
 }
 
+/// For a few points: those that a boundary is moved over.
 bool all_near(const PointsView& points, const Segment& segment, const InnerFit& fit,
               const Tolerance& tolerance) {
   if (segment.begin >= segment.end) return true;
-  return !farthest_from(normal_line(fit), points.subview(segment.begin, segment.end), tolerance)
-              .beyond();
+  const NormalLine line = normal_line(fit);
+  for (std::size_t i = segment.begin; i < segment.end; ++i) {
+    if (is_beyond(line, points, i, tolerance)) return false;
+  }
+  return true;
 }
 
 /// Moves the boundary between two pieces to the corner of their lines.

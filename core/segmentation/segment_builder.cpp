@@ -18,7 +18,8 @@ void SegmentBuilder::start(const PointsView& points, const SensorModel& sensor) 
   cluster_ = 0;
   sensor_ = sensor;
   tolerance_ = Tolerance(parameters_, sensor, points);
-  closed_ = !breakpoints_.find(points, sensor, clusters_);
+  coarse_points_.assign(points);
+  closed_ = !breakpoints_.find(coarse_points_, sensor, clusters_);
 }
 
 void SegmentBuilder::add(const Segment& piece) {

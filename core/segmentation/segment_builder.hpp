@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/segmentation/breakpoints.hpp"
+#include "core/segmentation/coarse_points.hpp"
 #include "core/segmentation/piece.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/segmentation_parameters.hpp"
@@ -26,6 +27,9 @@ class SegmentBuilder {
   /// Runs of points without a break of the surface, ascending; together they are all points.
   [[nodiscard]] std::span<const Segment> clusters() const { return clusters_; }
 
+  /// The points of this scan.
+  [[nodiscard]] const CoarsePoints& coarse_points() const { return coarse_points_; }
+
   /// Of the points of this scan.
   [[nodiscard]] const Tolerance& tolerance() const { return tolerance_; }
 
@@ -42,6 +46,7 @@ class SegmentBuilder {
  private:
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
+  CoarsePoints coarse_points_;
   SensorModel sensor_;
   Tolerance tolerance_;
   std::vector<Segment> clusters_;

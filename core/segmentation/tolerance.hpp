@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "core/segmentation/coarse_points.hpp"
+#include "core/segmentation/segment.hpp"
 #include "core/segmentation/segmentation_parameters.hpp"
 #include "core/sensor/points.hpp"
 #include "core/sensor/sensor_model.hpp"
@@ -54,6 +56,13 @@ struct NormalLine {
   }
 };
 
+/// Whether point `i` is farther from the line than its tolerance.
+[[nodiscard]] inline bool is_beyond(const NormalLine& line, const PointsView& points, std::size_t i,
+                                    const Tolerance& tolerance) {
+  const double distance = line.distance(points.x[i], points.y[i]);
+  return distance * distance > tolerance.squared(points, i, line.normal_x, line.normal_y);
+}
+
 /// A point by its squared distance less its squared tolerance.
 struct FarthestPoint {
   std::size_t index = 0;  ///< 0 when no point is beyond its tolerance
@@ -66,10 +75,11 @@ struct FarthestPoint {
 [[nodiscard]] FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,
                                           const Tolerance& tolerance);
 
-/// The point most beyond its tolerance from the chord between the first and the last of the points;
-/// from the first point when the chord is shorter than the distance
-/// from it.
+/// Of the points of `chord`, which are at least one, the one most beyond its tolerance from the
+/// chord between the first and the last of them; from the first point when the chord is shorter
+/// than the distance from it. The index counts from the begin of the chord.
 [[nodiscard]] FarthestPoint farthest_from_chord(const PointsView& points,
+                                                const CoarsePoints& coarse, const Segment& chord,
                                                 const Tolerance& tolerance);
 
 }  // namespace quoin

@@ -37,6 +37,7 @@ struct PointsView {
 /// Owner of the arrays; keeps its memory from scan to scan.
 struct Points {
   std::vector<double> range, bearing, inverse_range, cosine, sine, x, y;
+  std::vector<float> scan_bearing, scan_range;  ///< working memory of `convert`
 
   void resize(std::size_t count);
   [[nodiscard]] std::size_t size() const { return range.size(); }

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/sensor/multiversion.hpp"
 
@@ -15,51 +16,50 @@ namespace {
 constexpr double rounding = 6755399441055744.0;
 constexpr double quarters_per_radian = 0.6366197723675814;  // 2 / pi
 
-// pi / 2 in three parts. The first two have 31 bits, so that their products with the number of
-// quarter turns (20 bits for the largest bearing) are exact (reduction of Cody and Waite).
-constexpr double quarter_high = 0x1.921fb544p+0;
-constexpr double quarter_middle = 0x1.0b4611a4p-34;
-constexpr double quarter_low = 0x1.13198a2e03707p-65;
+// pi / 2 in two parts. The first has 33 bits, so that its product with the number of quarter turns
+// (20 bits for the largest bearing) is exact (reduction of Cody and Waite).
+constexpr double quarter_high = 0x1.921fb54400000p+0;
+constexpr double quarter_low = 0x1.0b4611a626331p-34;
 
-// Taylor series around 0, the argument being at most pi / 4: the first terms left out are below
-// x^17 / 17! = 5e-17 and x^18 / 18! = 2e-18.
+// Polynomials of least largest error (Remez) for arguments up to pi / 4. Of (sin(x) - x) / x^3 in
+// z = x^2, which makes the sine exact to 4e-18 relative to x:
 inline double sine_of_reduced(double x, double z) {
-  constexpr double s3 = -1.0 / 6.0;
-  constexpr double s5 = 1.0 / 120.0;
-  constexpr double s7 = -1.0 / 5040.0;
-  constexpr double s9 = 1.0 / 362880.0;
-  constexpr double s11 = -1.0 / 39916800.0;
-  constexpr double s13 = 1.0 / 6227020800.0;
-  constexpr double s15 = -1.0 / 1307674368000.0;
-  return x + x * z * (s3 + z * (s5 + z * (s7 + z * (s9 + z * (s11 + z * (s13 + z * s15))))));
+  constexpr double s3 = -0x1.5555555555549p-3;
+  constexpr double s5 = 0x1.111111110f87ap-7;
+  constexpr double s7 = -0x1.a01a019c11992p-13;
+  constexpr double s9 = 0x1.71de3577b673fp-19;
+  constexpr double s11 = -0x1.ae5e663a73a9dp-26;
+  constexpr double s13 = 0x1.5d9300f45e3e5p-33;
+  return x + x * z * (s3 + z * (s5 + z * (s7 + z * (s9 + z * (s11 + z * s13)))));
 }
 
+// Of (cos(x) - 1 + z / 2) / z^2, which makes the cosine exact to 5e-20.
 inline double cosine_of_reduced(double z) {
-  constexpr double c4 = 1.0 / 24.0;
-  constexpr double c6 = -1.0 / 720.0;
-  constexpr double c8 = 1.0 / 40320.0;
-  constexpr double c10 = -1.0 / 3628800.0;
-  constexpr double c12 = 1.0 / 479001600.0;
-  constexpr double c14 = -1.0 / 87178291200.0;
-  constexpr double c16 = 1.0 / 20922789888000.0;
-  const double tail =
-      z * z * (c4 + z * (c6 + z * (c8 + z * (c10 + z * (c12 + z * (c14 + z * c16))))));
-  const double half = 0.5 * z;
-  const double head = 1.0 - half;
-  return head + ((1.0 - head - half) + tail);  // the bracket restores what `head` was rounded by
+  constexpr double c4 = 0x1.555555555554cp-5;
+  constexpr double c6 = -0x1.6c16c16c1517ep-10;
+  constexpr double c8 = 0x1.a01a019cb1bddp-16;
+  constexpr double c10 = -0x1.27e4f809f0b82p-22;
+  constexpr double c12 = 0x1.1ee9ebe93e759p-29;
+  constexpr double c14 = -0x1.8fae9c8034ed0p-37;
+  return 1.0 - z * (0.5 - z * (c4 + z * (c6 + z * (c8 + z * (c10 + z * (c12 + z * c14))))));
 }
 
-// No branch and no call inside, so that the loop becomes vector instructions.
-QUOIN_MULTIVERSION
-void fill(const double* __restrict range, const double* __restrict bearing, std::size_t count,
-          double* __restrict inverse_range, double* __restrict cosine, double* __restrict sine,
-          double* __restrict x, double* __restrict y) {
+/// No branch and no call inside, so that the loop becomes vector instructions. Fills range and
+/// bearing too when they come in single precision.
+template <class Number>
+[[gnu::always_inline]] inline void fill(const Number* __restrict from_range,
+                                        const Number* __restrict from_bearing, std::size_t count,
+                                        double* __restrict to_range, double* __restrict to_bearing,
+                                        double* __restrict inverse_range, double* __restrict cosine,
+                                        double* __restrict sine, double* __restrict x,
+                                        double* __restrict y) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double shifted = bearing[i] * quarters_per_radian + rounding;
+    const auto range = static_cast<double>(from_range[i]);
+    const auto bearing = static_cast<double>(from_bearing[i]);
+    const double shifted = bearing * quarters_per_radian + rounding;
     const double quarters = shifted - rounding;
     const auto quadrant = std::bit_cast<std::uint64_t>(shifted);
-    double reduced = bearing[i] - quarters * quarter_high;
-    reduced -= quarters * quarter_middle;
+    double reduced = bearing - quarters * quarter_high;
     reduced -= quarters * quarter_low;
     const double z = reduced * reduced;
 
@@ -71,19 +71,45 @@ void fill(const double* __restrict range, const double* __restrict bearing, std:
     s ^= (quadrant & 2U) << 62U;         // sign of the sine: quadrants 2 and 3
     c ^= ((quadrant + 1U) & 2U) << 62U;  // sign of the cosine: quadrants 1 and 2
 
-    inverse_range[i] = 1.0 / range[i];
+    if constexpr (std::is_same_v<Number, float>) {
+      to_range[i] = range;
+      to_bearing[i] = bearing;
+    }
+    inverse_range[i] = 1.0 / range;
     sine[i] = std::bit_cast<double>(s);
     cosine[i] = std::bit_cast<double>(c);
-    x[i] = range[i] * cosine[i];
-    y[i] = range[i] * sine[i];
+    x[i] = range * cosine[i];
+    y[i] = range * sine[i];
   }
+}
+
+QUOIN_MULTIVERSION
+void fill_from_double(const double* range, const double* bearing, std::size_t count,
+                      double* inverse_range, double* cosine, double* sine, double* x, double* y) {
+  fill(range, bearing, count, nullptr, nullptr, inverse_range, cosine, sine, x, y);
+}
+
+QUOIN_MULTIVERSION
+void fill_from_float(const float* from_range, const float* from_bearing, std::size_t count,
+                     double* range, double* bearing, double* inverse_range, double* cosine,
+                     double* sine, double* x, double* y) {
+  fill(from_range, from_bearing, count, range, bearing, inverse_range, cosine, sine, x, y);
 }
 
 }  // namespace
 
 void compute_cartesian(Points& points) {
-  fill(points.range.data(), points.bearing.data(), points.size(), points.inverse_range.data(),
-       points.cosine.data(), points.sine.data(), points.x.data(), points.y.data());
+  fill_from_double(points.range.data(), points.bearing.data(), points.size(),
+                   points.inverse_range.data(), points.cosine.data(), points.sine.data(),
+                   points.x.data(), points.y.data());
+}
+
+void compute_cartesian(std::span<const float> bearings, std::span<const float> ranges,
+                       std::size_t at, Points& points) {
+  fill_from_float(ranges.data(), bearings.data(), ranges.size(), points.range.data() + at,
+                  points.bearing.data() + at, points.inverse_range.data() + at,
+                  points.cosine.data() + at, points.sine.data() + at, points.x.data() + at,
+                  points.y.data() + at);
 }
 
 }  // namespace quoin

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "core/sensor/points.hpp"
 
 namespace quoin {
@@ -14,5 +17,10 @@ inline constexpr double largest_bearing = 1e6;
 /// 2 units in the last place (to 3e-16 near their zeros), much faster than calling std::sin and
 /// std::cos in turn.
 void compute_cartesian(Points& points);
+
+/// The same for the points from place `at` on, whose bearing and range are these; both spans have
+/// the same length, and the points have room for them.
+void compute_cartesian(std::span<const float> bearings, std::span<const float> ranges,
+                       std::size_t at, Points& points);
 
 }  // namespace quoin

@@ -22,64 +22,78 @@ inline int is_valid(float bearing, float range, const Limits& limits) {
          static_cast<int>(std::abs(bearing) <= limits.bearing_max);
 }
 
-/// Copies all points and returns how many of them are valid.
 QUOIN_MULTIVERSION
-int copy_all(const float* __restrict from_bearings, const float* __restrict from_ranges,
-             std::size_t count, Limits limits, double* __restrict bearings,
-             double* __restrict ranges) {
+int count_valid(const float* __restrict bearings, const float* __restrict ranges, std::size_t count,
+                Limits limits) {
   int valid = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    bearings[i] = static_cast<double>(from_bearings[i]);
-    ranges[i] = static_cast<double>(from_ranges[i]);
-    valid += is_valid(from_bearings[i], from_ranges[i], limits);
-  }
+  for (std::size_t i = 0; i < count; ++i) valid += is_valid(bearings[i], ranges[i], limits);
   return valid;
 }
 
-/// Copies the valid points in the order of acquisition; returns how many there are.
-std::size_t copy_valid(const ScanView& scan, std::size_t count, double* bearings, double* ranges) {
+/// Bearings and ranges of the same length, in the order of acquisition.
+struct Readings {
+  std::span<const float> bearings, ranges;
+
+  [[nodiscard]] Readings subspan(std::size_t begin, std::size_t count) const {
+    return {bearings.subspan(begin, count), ranges.subspan(begin, count)};
+  }
+};
+
+/// The valid ones; copied to the working memory of `points` when there are others between them.
+Readings valid_readings(const Readings& all, const ScanView& scan, Points& points) {
   const Limits limits{std::max(scan.range_min, std::numeric_limits<float>::denorm_min()),
                       std::min(scan.range_max, std::numeric_limits<float>::max()),
                       static_cast<float>(largest_bearing)};
-  const int all_valid =
-      copy_all(scan.bearings.data(), scan.ranges.data(), count, limits, bearings, ranges);
-  if (static_cast<std::size_t>(all_valid) == count) return count;
+  const std::size_t count = all.ranges.size();
+  const int all_valid = count_valid(all.bearings.data(), all.ranges.data(), count, limits);
+  if (static_cast<std::size_t>(all_valid) == count) return all;
+  points.scan_bearing.resize(count);
+  points.scan_range.resize(count);
   std::size_t valid = 0;
   for (std::size_t i = 0; i < count; ++i) {
     // Without a branch: dropouts come at random.
-    bearings[valid] = static_cast<double>(scan.bearings[i]);
-    ranges[valid] = static_cast<double>(scan.ranges[i]);
-    valid += static_cast<std::size_t>(is_valid(scan.bearings[i], scan.ranges[i], limits));
+    points.scan_bearing[valid] = all.bearings[i];
+    points.scan_range[valid] = all.ranges[i];
+    valid += static_cast<std::size_t>(is_valid(all.bearings[i], all.ranges[i], limits));
   }
-  return valid;
+  return Readings{points.scan_bearing, points.scan_range}.subspan(0, valid);
 }
 
-/// Copies `order.count` elements from `order.first` on, around the end, in reading direction.
-void copy_ordered(const ScanOrder& order, const double* from, double* to) {
-  const auto first = static_cast<std::ptrdiff_t>(order.first);
-  const auto count = static_cast<std::ptrdiff_t>(order.count);
-  if (order.clockwise) {
-    double* const wrapped = std::reverse_copy(from, from + first + 1, to);
-    std::reverse_copy(from + first + 1, from + count, wrapped);
-  } else {
-    std::rotate_copy(from, from + first, from + count, to);
-  }
+/// The same backwards, in the working memory of `points`, where they may be already.
+Readings reversed(const Readings& readings, Points& points) {
+  const auto reverse = [](std::span<const float> from, std::vector<float>& to) {
+    if (from.data() == to.data()) {
+      to.resize(from.size());
+      std::reverse(to.begin(), to.end());
+    } else {
+      to.assign(from.rbegin(), from.rend());
+    }
+  };
+  reverse(readings.bearings, points.scan_bearing);
+  reverse(readings.ranges, points.scan_range);
+  return {points.scan_bearing, points.scan_range};
 }
 
 }  // namespace
 
 std::size_t convert(const ScanView& scan, Points& points) {
-  const std::size_t count = std::min(scan.bearings.size(), scan.ranges.size());
-  points.resize(count);
-  // x and y are free until the points are in order.
-  const std::size_t valid = copy_valid(scan, count, points.x.data(), points.y.data());
-  const ScanOrder order = scan_order({points.x.data(), valid}, {points.y.data(), valid});
-  if (order.count > 0) {
-    copy_ordered(order, points.x.data(), points.bearing.data());
-    copy_ordered(order, points.y.data(), points.range.data());
-  }
+  const std::size_t given = std::min(scan.bearings.size(), scan.ranges.size());
+  Readings readings =
+      valid_readings({scan.bearings.first(given), scan.ranges.first(given)}, scan, points);
+  const ScanOrder order = scan_order(readings.bearings, readings.ranges);
   points.resize(order.count);
-  compute_cartesian(points);
+  if (order.count == 0) return 0;
+  readings = readings.subspan(0, order.count);
+  std::size_t first = order.first;
+  if (order.clockwise) {
+    readings = reversed(readings, points);
+    first = order.count - 1 - first;
+  }
+  const std::size_t before_seam = order.count - first;
+  const Readings start = readings.subspan(first, before_seam);
+  const Readings rest = readings.subspan(0, first);
+  compute_cartesian(start.bearings, start.ranges, 0, points);
+  compute_cartesian(rest.bearings, rest.ranges, before_seam, points);
   return order.count;
 }
 
@@ -87,11 +101,7 @@ void convert_ordered(std::span<const float> bearings, std::span<const float> ran
                      Points& points) {
   const std::size_t count = std::min(bearings.size(), ranges.size());
   points.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    points.bearing[i] = static_cast<double>(bearings[i]);
-    points.range[i] = static_cast<double>(ranges[i]);
-  }
-  compute_cartesian(points);
+  compute_cartesian(bearings.first(count), ranges.first(count), 0, points);
 }
 
 }  // namespace quoin

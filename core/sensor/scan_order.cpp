@@ -10,54 +10,66 @@
 namespace quoin {
 namespace {
 
-constexpr double full_turn = 2.0 * pi;
+constexpr float full_turn = 2.0F * static_cast<float>(pi);
 
 /// A gap between neighbouring bearings that no wall is followed through [rad].
-constexpr double wide_gap = 10.0 * pi / 180.0;
+constexpr float wide_gap = 10.0F * static_cast<float>(pi) / 180.0F;
 
-/// The turn from one bearing to the next, in [-pi, pi].
-inline double turn(double from, double to) {
-  constexpr double rounding = 6755399441055744.0;  // rounds to the nearest integer, as in polar.cpp
-  const double difference = to - from;
-  const double turns = (difference * (1.0 / full_turn) + rounding) - rounding;
+/// The turn from one bearing to the next, in [-pi, pi] but for rounding.
+inline float turn(float from, float to) {
+  constexpr float rounding = 12582912.0F;  // 1.5 * 2^23 rounds to the nearest integer
+  const float difference = to - from;
+  const float turns = (difference * (1.0F / full_turn) + rounding) - rounding;
   return difference - turns * full_turn;
 }
 
 struct Extremes {
-  double largest_turn = -full_turn;
-  double smallest_turn = full_turn;
-  double longest_range = 0.0;
-  long turns_forward = 0;  // counter-clockwise steps less clockwise ones
+  float largest_turn = -full_turn;
+  float smallest_turn = full_turn;
+  float longest_range = 0.0F;
+  int turns_forward = 0;  // counter-clockwise steps less clockwise ones
 };
 
 QUOIN_MULTIVERSION
-void find_extremes(const double* __restrict bearing, const double* __restrict range,
+void find_extremes(const float* __restrict bearing, const float* __restrict range,
                    std::size_t count, Extremes& out) {
   Extremes extremes;
   extremes.longest_range = range[count - 1];
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    const double step = turn(bearing[i], bearing[i + 1]);
+    const float step = turn(bearing[i], bearing[i + 1]);
     extremes.largest_turn = step > extremes.largest_turn ? step : extremes.largest_turn;
     extremes.smallest_turn = step < extremes.smallest_turn ? step : extremes.smallest_turn;
     extremes.longest_range = range[i] > extremes.longest_range ? range[i] : extremes.longest_range;
-    extremes.turns_forward += step > 0.0 ? 1 : 0;
-    extremes.turns_forward -= step < 0.0 ? 1 : 0;
+    extremes.turns_forward += step > 0.0F ? 1 : 0;
+    extremes.turns_forward -= step < 0.0F ? 1 : 0;
   }
   out = extremes;
 }
 
+/// The first place of a range that is not less than the longest.
+QUOIN_MULTIVERSION
+std::size_t place_of_longest(const float* __restrict range, std::size_t count, float longest) {
+  const auto none = static_cast<unsigned>(count);
+  unsigned first = none;
+  for (unsigned i = 0; i < none; ++i) {
+    const unsigned place = range[i] >= longest ? i : none;
+    first = place < first ? place : first;
+  }
+  return first;
+}
+
 /// True when the last of `count` points looks where the first one did, a whole turn later.
-bool last_repeats_first(std::span<const double> bearings, std::size_t count) {
+bool last_repeats_first(std::span<const float> bearings, std::size_t count) {
   if (count < 8) return false;
-  const double spacing = full_turn / static_cast<double>(count - 1);
-  if (std::abs(turn(bearings[0], bearings[count - 1])) > 0.01 * spacing) return false;
+  const float spacing = full_turn / static_cast<float>(count - 1);
+  if (std::abs(turn(bearings[0], bearings[count - 1])) > 0.01F * spacing) return false;
   // Half a turn away there must be points, else it is one direction measured again and again.
-  return std::abs(turn(bearings[0], bearings[count / 2])) > 0.25 * pi;
+  return std::abs(turn(bearings[0], bearings[count / 2])) > 0.25F * static_cast<float>(pi);
 }
 
 }  // namespace
 
-ScanOrder scan_order(std::span<const double> bearings, std::span<const double> ranges) {
+ScanOrder scan_order(std::span<const float> bearings, std::span<const float> ranges) {
   ScanOrder order;
   order.count = bearings.size();
   if (last_repeats_first(bearings, order.count)) --order.count;
@@ -69,25 +81,25 @@ ScanOrder scan_order(std::span<const double> bearings, std::span<const double> r
   // The majority decides: single steps may go backwards by noise, or around by more than half a
   // turn where a large part of the scan saw nothing.
   order.clockwise = extremes.turns_forward < 0;
-  const double direction = order.clockwise ? -1.0 : 1.0;
+  const float direction = order.clockwise ? -1.0F : 1.0F;
   const auto previous = [count](std::size_t i) { return i == 0 ? count - 1 : i - 1; };
   const auto next = [count](std::size_t i) { return i + 1 == count ? 0 : i + 1; };
 
   // A sector, or a revolution that saw nothing in some sector: the widest gap is the break.
   // The step over a gap beyond half a turn appears as a large step backwards.
   const auto gap_before = [&](std::size_t i) {
-    const double gap = direction * turn(bearings[previous(i)], bearings[i]);
+    const float gap = direction * turn(bearings[previous(i)], bearings[i]);
     return gap < -wide_gap ? gap + full_turn : gap;
   };
-  const double widest_inside = order.clockwise ? -extremes.smallest_turn : extremes.largest_turn;
-  const double narrowest_inside = order.clockwise ? extremes.largest_turn : extremes.smallest_turn;
+  const float widest_inside = order.clockwise ? -extremes.smallest_turn : extremes.largest_turn;
+  const float narrowest_inside = order.clockwise ? extremes.largest_turn : extremes.smallest_turn;
   const bool reversal = (order.clockwise ? -narrowest_inside : narrowest_inside) < -wide_gap;
-  const double closing_gap = gap_before(0);
+  const float closing_gap = gap_before(0);
   if (closing_gap > wide_gap || widest_inside > wide_gap || reversal) {
-    double widest = closing_gap;
+    float widest = closing_gap;
     std::size_t behind_gap = 0;
     for (std::size_t i = 1; i < count; ++i) {
-      const double gap = gap_before(i);
+      const float gap = gap_before(i);
       if (gap > widest) {
         widest = gap;
         behind_gap = i;
@@ -100,10 +112,9 @@ ScanOrder scan_order(std::span<const double> bearings, std::span<const double> r
   }
 
   // Along a wall the range is a convex function of the position, so the farthest point ends a wall.
-  std::size_t farthest = 0;
-  while (ranges[farthest] < extremes.longest_range) ++farthest;
-  const double jump_before = std::abs(ranges[farthest] - ranges[previous(farthest)]);
-  const double jump_after = std::abs(ranges[farthest] - ranges[next(farthest)]);
+  const std::size_t farthest = place_of_longest(ranges.data(), count, extremes.longest_range);
+  const float jump_before = std::abs(ranges[farthest] - ranges[previous(farthest)]);
+  const float jump_after = std::abs(ranges[farthest] - ranges[next(farthest)]);
   if (order.clockwise) {
     order.first = jump_after > jump_before ? farthest : previous(farthest);
   } else {

@@ -16,7 +16,6 @@ struct ScanOrder {
 
 /// Bearings [rad] and ranges [m] of valid points in the order of acquisition; that order is
 /// trusted, because noise of the bearings may swap neighbours. Both spans have the same length.
-[[nodiscard]] ScanOrder scan_order(std::span<const double> bearings,
-                                   std::span<const double> ranges);
+[[nodiscard]] ScanOrder scan_order(std::span<const float> bearings, std::span<const float> ranges);
 
 }  // namespace quoin

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/export/systemd.hpp"
 
+#include <chrono>
+
 #include "deploy/export/output_file.hpp"
 #include "deploy/export/systemd_text.hpp"
 
@@ -33,7 +35,9 @@ std::string restart_lines(const ExportPlan& plan, const ExportedService& service
   if (service.restart == RestartPolicy::never) return "Restart=no\n";
   // A source that has published everything is done.
   std::string text = service.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
-  text += "RestartSec=1s\n";
+  const auto pause = service.is_service() ? std::chrono::milliseconds(1000)
+                                          : discovery_pause(plan.deployment->network);
+  text += "RestartSec=" + std::to_string(pause.count()) + "ms\n";
   // 2: a wrong configuration, 3: an unusable input. But a device or an interface may come later.
   const bool may_come = service.serial_port || !plan.deployment->network.interfaces.empty();
   text += std::string("RestartPreventExitStatus=") + (may_come ? "3\n" : "2 3\n");

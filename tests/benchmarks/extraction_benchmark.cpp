@@ -91,7 +91,7 @@ void extraction(benchmark::State& state, Until until) {
       for (const quoin::Segment& segment : segments) {
         const quoin::PointsView view = points.view().subview(segment.begin, segment.end);
         const quoin::FitResult fit = fitter(view, sensor);
-        if (fit.ok()) fitted.push_back(quoin::line_segment(fit.estimate, view));
+        if (fit.ok()) fitted.push_back(quoin::line_segment(fit.estimate, fit.normal, view));
       }
     }
     if (until >= corners) finder(fitted, sensor.range_bias_stddev, found);

@@ -215,7 +215,8 @@ TEST(Security, TheCommandMakesKeysAndNothingStartsWithoutThem) {
   const TestDeployment deployment(chain, "security: {keys: keys}\n");
   const auto quoin = [&](std::vector<std::string> arguments) {
     Process process = deployment.quoin(std::move(arguments));
-    return std::pair(process.wait(30s).value_or(-1), process.output() + process.errors());
+    const int code = process.wait(30s).value_or(-1);
+    return std::pair(code, process.output() + process.errors());
   };
   const std::string keys = (deployment.directory().path() / "keys").string();
 

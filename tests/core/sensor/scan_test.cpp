@@ -84,6 +84,12 @@ TEST_P(Rotated, GivesTheSamePoints) {
   const Points clockwise = converted(scan.bearings, scan.ranges);
   EXPECT_EQ(clockwise.bearing, expected.bearing);
   EXPECT_EQ(clockwise.x, expected.x);
+  // Dropouts between them change nothing.
+  for (std::ptrdiff_t at : {900, 450, 449, 0}) {
+    scan.bearings.insert(scan.bearings.begin() + at, 0.5F);
+    scan.ranges.insert(scan.ranges.begin() + at, nan_value);
+  }
+  EXPECT_EQ(converted(scan.bearings, scan.ranges).x, expected.x);
 }
 
 INSTANTIATE_TEST_SUITE_P(ByAnyIndex, Rotated, testing::Values(0, 1, 13, 250, 459, 460, 777, 919));

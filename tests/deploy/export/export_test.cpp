@@ -128,7 +128,8 @@ TEST(ExportPlan, DiscoveryServersComeFirst) {
   EXPECT_THAT(
       text_of(units, "quoin-quoin-discovery-server.service"),
       AllOf(HasSubstr("Type=exec\nExecStart=/usr/bin/quoin discovery /etc/quoin/robot.yaml\n"),
-            Not(HasSubstr("WatchdogSec")), HasSubstr("After=network-online.target\n")));
+            Not(HasSubstr("WatchdogSec")), HasSubstr("After=network-online.target\n"),
+            HasSubstr("\nRestartSec=21000ms\n")));
   const YAML::Node root = YAML::Load(compose_file(plan, {.image = "quoin"}));
   EXPECT_THAT(root["services"]["discovery-server"]["command"].as<std::vector<std::string>>(),
               ElementsAre("quoin", "discovery", "/etc/quoin/robot.yaml"));
@@ -178,7 +179,7 @@ TEST(Systemd, RestartsAsTheDeploymentSays) {
   const auto units = systemd_units(plan_export(read, ""), "/usr/local/bin");
   EXPECT_THAT(text_of(units, "quoin-Fleet-robot1-a.service"), HasSubstr("Restart=no\n"));
   EXPECT_THAT(text_of(units, "quoin-Fleet-robot1-on.service"),
-              AllOf(HasSubstr("Restart=always\n"), HasSubstr("RestartSec=1s\n"),
+              AllOf(HasSubstr("Restart=always\n"), HasSubstr("RestartSec=1000ms\n"),
                     HasSubstr("RestartPreventExitStatus=2 3\n")));
   EXPECT_THAT(text_of(units, "quoin-Fleet-robot1-side.service"), HasSubstr("Restart=on-failure\n"));
   // Its port may not be there yet.
