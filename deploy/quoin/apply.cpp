@@ -68,7 +68,7 @@ void print(const msg::ControlReply& reply, const ApplyOptions& options) {
   for (const msg::ControlStep& step : reply.steps()) {
     std::cout << to_text(step);
     const bool numbered = step.action() == "swap" || step.action() == "replace";
-    if (numbered && !options.dry_run) {
+    if (numbered && step.first_sequence_number() > 0) {
       std::cout << "; from scan " << step.first_sequence_number() << " on";
     }
     std::cout << '\n';
