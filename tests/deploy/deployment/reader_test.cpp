@@ -54,7 +54,6 @@ version: 1
 network:
   interfaces: [eth0, 10.7.0.0/24]
   servers: [10.7.0.2, "10.7.0.3:11899"]
-security: {keys: keys, encrypt: false}
 services:
   - {name: front, kind: simulated, host: lidar}
   - {name: walls, kind: segmentation, input: front, host: compute, strength: 1}
@@ -65,14 +64,24 @@ services:
   EXPECT_EQ(deployment.network.discovery, Discovery::server);
   EXPECT_THAT(deployment.network.servers,
               ElementsAre(ServerAddress{"10.7.0.2", 11811}, ServerAddress{"10.7.0.3", 11899}));
-  ASSERT_TRUE(deployment.security.has_value());
-  EXPECT_EQ(deployment.security->directory, "/etc/keys");
-  EXPECT_FALSE(deployment.security->encrypt);
   EXPECT_THAT(names_of(deployment), ElementsAre("front", "walls", "walls"));
   EXPECT_EQ(deployment.service("front").host, "lidar");
   EXPECT_EQ(label(deployment.service("walls")), "walls@20");
   EXPECT_EQ(deployment.service("walls@1").host, "compute");
   EXPECT_THROW((void)deployment.service("walls@2"), std::out_of_range);
+}
+
+TEST(Reader, ReadsWhereTheKeysAre) {
+  const Deployment deployment = parse_deployment(R"(
+version: 1
+security: {keys: keys, encrypt: false}
+services:
+  - {name: front, kind: simulated}
+)",
+                                                 "/etc/robot.yaml");
+  ASSERT_TRUE(deployment.security.has_value());
+  EXPECT_EQ(deployment.security->directory, "/etc/keys");
+  EXPECT_FALSE(deployment.security->encrypt);
 }
 
 TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
@@ -99,7 +108,8 @@ TEST(Reader, KeepsParticipantsLongerOnANetworkUnlessTold) {
 }
 
 TEST(Reader, ReadsANetworkThatNoFileDescribes) {
-  const NetworkConfig network = parse_network({{"eth0", "10.7.0.0/24"}, "", {}, {"10.7.0.2:11899"}});
+  const NetworkConfig network =
+      parse_network({{"eth0", "10.7.0.0/24"}, "", {}, {"10.7.0.2:11899"}});
   EXPECT_THAT(network.interfaces, ElementsAre("eth0", "10.7.0.0/24"));
   EXPECT_EQ(network.discovery, Discovery::server);
   EXPECT_THAT(network.servers, ElementsAre(ServerAddress{"10.7.0.2", 11899}));
