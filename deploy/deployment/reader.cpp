@@ -69,10 +69,12 @@ class Reader {
                                                  "security", "services"}));
       }
     }
-    if (security && deployment_.network.discovery == Discovery::server) {
-      // With both, Fast DDS 2.9 ends the process; it has secure discovery servers from 2.10 on.
+    if (security && deployment_.network.discovery != Discovery::peers) {
+      // With servers Fast DDS 2.9 ends the process (it has secure ones from 2.10 on); with multicast
+      // some of ten participants that start at once never finish their handshake.
       problems_.add(security->key_at,
-                    "security cannot be had with discovery: server; choose multicast or peers");
+                    "security can be had with discovery: peers only; list the addresses of the "
+                    "hosts in the network's peers");
     }
     if (!version) {
       problems_.add(at, "missing key 'version'; write version: 1");

@@ -135,6 +135,13 @@ class Robot {
     return base["corners"];
   }
 
+  /// What the hosts have said so far.
+  [[nodiscard]] std::string logs() const {
+    std::string text;
+    for (const auto& [host, up] : ups_) text += host + ":\n" + up->errors();
+    return text;
+  }
+
   /// The process that `quoin up` of `host` has started for the discovery server there.
   [[nodiscard]] pid_t discovery_server(const std::string& host) const {
     using std::string_literals::operator""s;
@@ -284,7 +291,7 @@ TEST_F(Network, TheRobotOfTheExampleAccountsForEachScanThroughASwapAKillAndACut)
   Robot robot(head, "", services);
   for (const char* host : {"lidar", "compute", "base"}) robot.up(host);
   ASSERT_TRUE(robot.has_published("corners", 10));
-  ASSERT_TRUE(robot.has_published("beside_corners", 10));
+  ASSERT_TRUE(robot.has_published("beside_corners", 10)) << robot.logs();
 
   Process swap = robot.quoin("base", {"swap", "beside", "utls", "--deployment", "FILE", "--json"});
   EXPECT_EQ(swap.wait(20s), 0) << swap.errors();
