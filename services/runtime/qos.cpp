@@ -75,8 +75,12 @@ Qos common_qos(Qos qos, const TopicQos& topic) {
   qos.resource_limits().max_samples_per_instance = samples;
   qos.resource_limits().max_samples = keyed ? max_instances * samples : samples;
   qos.resource_limits().allocated_samples = 1;
+  // Data keeps its memory from scan to scan. What strangers may send must not: a few oversized
+  // requests would leave every place of the history as large as the largest of them.
   qos.endpoint().history_memory_policy =
-      eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+      preset == QosPreset::control
+          ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
+          : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic.strength) {
     qos.ownership().kind = dds::EXCLUSIVE_OWNERSHIP_QOS;
     // With the other two kinds of liveliness Fast DDS 2.9 never gives up a writer that was killed

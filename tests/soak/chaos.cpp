@@ -76,7 +76,7 @@ void Chaos::end_what_is_over(Clock::time_point now) {
     ::kill(pause.process, SIGCONT);
     return true;
   });
-  std::erase_if(visitors_, [&](const Visitor& visitor) { return now >= visitor.leaves; });
+  std::erase_if(visitors_, [&](const auto& visitor) { return now >= visitor->leaves; });
   if (apply_) {
     if (const auto code = apply_->wait(milliseconds(0))) {
       ++counts_["apply ended with " + std::to_string(*code)];
@@ -87,7 +87,7 @@ void Chaos::end_what_is_over(Clock::time_point now) {
 
 void Chaos::settle() {
   for (Pause& pause : pauses_) pause.ends = Clock::now();
-  for (Visitor& visitor : visitors_) visitor.leaves = Clock::now();
+  for (const auto& visitor : visitors_) visitor->leaves = Clock::now();
   const auto deadline = Clock::now() + std::chrono::seconds(60);
   do {
     listen();
@@ -181,12 +181,9 @@ void Chaos::apply_another() {
 }
 
 void Chaos::invite() {
-  Visitor visitor;
-  visitor.participant = std::make_unique<runtime::Participant>(deployment_.participant("visitor"));
-  visitor.reader = std::make_unique<runtime::Reader<msg::Corners>>(
-      *visitor.participant, deployment_.topic("second_corners"), runtime::QosPreset::feature);
-  visitor.leaves = Clock::now() + seconds(uniform(0.5, 5.0));
-  visitors_.push_back(std::move(visitor));
+  visitors_.push_back(std::make_unique<Visitor>(deployment_.participant("visitor"),
+                                                deployment_.topic("second_corners"),
+                                                Clock::now() + seconds(uniform(0.5, 5.0))));
   ++counts_["visitors"];
 }
 

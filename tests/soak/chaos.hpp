@@ -55,8 +55,14 @@ class Chaos {
 
  private:
   struct Visitor {
-    std::unique_ptr<runtime::Participant> participant;
-    std::unique_ptr<runtime::Reader<msg::Corners>> reader;
+    Visitor(const runtime::ParticipantConfig& config, const std::string& topic,
+            Clock::time_point end)
+        : participant(config),
+          reader(participant, topic, runtime::QosPreset::feature),
+          leaves(end) {}
+
+    runtime::Participant participant;
+    runtime::Reader<msg::Corners> reader;
     Clock::time_point leaves;
   };
   struct Pause {
@@ -89,7 +95,7 @@ class Chaos {
   std::map<pid_t, std::string> processes_;
   std::map<std::string, int> counts_;
   std::vector<Pause> pauses_;
-  std::vector<Visitor> visitors_;
+  std::vector<std::unique_ptr<Visitor>> visitors_;
   std::optional<tests::Process> apply_;
   Clock::time_point next_;
   std::uint64_t request_ = 0;

@@ -11,7 +11,7 @@ namespace quoin::soak {
 
 namespace {
 
-constexpr std::size_t warm_up = 20;  // samples: buffers and discovery data reach their size
+constexpr std::size_t warm_up = 40;  // samples: buffers and discovery data reach their size
 constexpr std::size_t window = 10;
 constexpr std::size_t shortest = warm_up + 3 * window;
 
