@@ -123,7 +123,7 @@ std::optional<Member> Chaos::any_member() {
 
 void Chaos::kill_one() {
   const auto member = any_member();
-  if (!member) return;
+  if (!member || spared_.contains(member->service)) return;
   ::kill(member->process, SIGKILL);
   ++counts_["killed"];
 }

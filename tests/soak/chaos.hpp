@@ -46,6 +46,9 @@ class Chaos {
   /// Ends what is under way: paused processes go on, visitors leave, the last apply is waited for.
   void settle();
 
+  /// From now on these are not killed, so that their memory tells something.
+  void spare(std::set<std::string> services) { spared_ = std::move(services); }
+
   /// What was done, and how often.
   [[nodiscard]] const std::map<std::string, int>& counts() const { return counts_; }
   /// Every process that ever reported.
@@ -94,6 +97,7 @@ class Chaos {
   std::map<std::string, msg::ServiceStatus> latest_;
   std::map<pid_t, std::string> processes_;
   std::map<std::string, int> counts_;
+  std::set<std::string> spared_;
   std::vector<Pause> pauses_;
   std::vector<std::unique_ptr<Visitor>> visitors_;
   std::optional<tests::Process> apply_;

@@ -11,9 +11,8 @@ namespace quoin::soak {
 
 namespace {
 
-constexpr std::size_t warm_up = 40;  // samples: buffers and discovery data reach their size
 constexpr std::size_t window = 10;
-constexpr std::size_t shortest = warm_up + 3 * window;
+constexpr std::size_t shortest = 3 * window;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -42,7 +41,7 @@ std::vector<Memory::Growth> Memory::growths() const {
   std::vector<Growth> growths;
   for (const auto& [process, history] : histories_) {
     if (history.samples.size() < shortest) continue;
-    const auto begin = history.samples.begin() + warm_up;
+    const auto begin = history.samples.begin();
     growths.push_back({history.service, median({begin, begin + window}),
                        median({history.samples.end() - window, history.samples.end()})});
   }

@@ -10,18 +10,20 @@
 
 namespace quoin::soak {
 
-/// How the resident memory of processes develops, from once they have warmed up.
+/// How the resident memory of processes develops, from a time at which they have warmed up.
 class Memory {
  public:
+  /// From now on it counts.
+  void begin() { histories_.clear(); }
   /// Takes a sample of each process, when the last one is a second old.
   void sample(const std::map<pid_t, std::string>& processes);
 
   struct Growth {
     std::string service;
-    double before = 0.0;  ///< [byte] median of the first ten samples after the warm-up
+    double before = 0.0;  ///< [byte] median of the first ten samples
     double after = 0.0;   ///< [byte] median of the last ten
   };
-  /// Of every process that lived long enough to say.
+  /// Of every process that has lived for half a minute since.
   [[nodiscard]] std::vector<Growth> growths() const;
 
  private:
