@@ -25,14 +25,11 @@ using std::chrono::steady_clock;
 namespace {
 
 // What may die up to this part of the run lives on from then, and its memory counts from the
-// second.
+// second: before, the pools of Fast DDS grow to the most participants that were ever there at once.
 constexpr double last_kills = 0.3;
 constexpr double begin_of_memory = 0.6;
 const std::set<std::string> spared{"front", "walls", "steady@10", "steady_corners"};
-
-/// Of the resident memory of all processes that live long enough, together. In the first minutes
-/// the pools of Fast DDS still grow, to the most participants that were ever there at once.
-double most_growth(double minutes) { return minutes < 10.0 ? 0.05 : 0.02; }
+constexpr double most_growth = 0.02;  // of the resident memory of those and quoin up together
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -99,7 +96,7 @@ ordered_json judge_scans(const ordered_json& summary, Verdict& verdict) {
   return result;
 }
 
-ordered_json judge_memory(const soak::Memory& memory, double minutes, Verdict& verdict) {
+ordered_json judge_memory(const soak::Memory& memory, Verdict& verdict) {
   double before = 0.0;
   double after = 0.0;
   ordered_json processes = ordered_json::array();
@@ -111,7 +108,7 @@ ordered_json judge_memory(const soak::Memory& memory, double minutes, Verdict& v
                          {"mib_after", growth.after / 1048576.0}});
   }
   const double growth = before > 0.0 ? after / before - 1.0 : 0.0;
-  verdict.require(growth <= most_growth(minutes),
+  verdict.require(growth <= most_growth,
                   "memory has grown by " + std::to_string(100.0 * growth) + " %");
   return {{"growth", growth}, {"processes", processes}};
 }
@@ -157,7 +154,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
     bool sparing = false;
     bool counting = false;
     auto next_line = begin + 10s;
-    std::map<pid_t, std::string> watched;
+    std::map<pid_t, std::string> watched{{up.pid(), "quoin up"}};
     while (steady_clock::now() < end && interrupted == 0 && !up.wait(0ms)) {
       steady.poll();
       second.poll();
@@ -171,8 +168,9 @@ ordered_json run(const Options& options, Verdict& verdict) {
         counting = true;
         memory.begin();
       }
-      watched = chaos.processes();
-      watched[up.pid()] = "quoin up";
+      for (const auto& [process, service] : chaos.processes()) {
+        if (spared.contains(service)) watched[process] = service;
+      }
       memory.sample(watched);
       if (now >= next_line) {
         next_line += 10s;
@@ -201,7 +199,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
   const ordered_json summary = ordered_json::parse(up.output(), nullptr, false);
   verdict.require(summary.is_object(), "quoin up gave no summary");
   if (summary.is_object()) report["scans"] = judge_scans(summary, verdict);
-  report["memory"] = judge_memory(memory, options.minutes, verdict);
+  report["memory"] = judge_memory(memory, verdict);
   report["left"] = judge_leftovers(deployment, shared_memory, verdict);
   if (options.verbose || !verdict.faults().empty()) std::cerr << up.errors();
   return report;
