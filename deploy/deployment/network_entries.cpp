@@ -179,7 +179,9 @@ std::optional<SecurityConfig> read_security(const Entry& entry, const std::files
     if (element.key == "keys") {
       keys = true;
       const auto text = read_text(element, problems);
-      if (text) security = SecurityConfig{base / *text};
+      if (text) {
+        security = SecurityConfig{std::filesystem::absolute(base / *text).lexically_normal()};
+      }
     } else if (element.key == "encrypt") {
       const auto text = read_choice(element, "value of encrypt", {"true", "false"}, problems);
       encrypt = text != "false";

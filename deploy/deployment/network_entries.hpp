@@ -14,7 +14,7 @@ namespace quoin::deploy {
 /// Reads the map behind `network:`; what is wrong is added to `problems`.
 [[nodiscard]] NetworkConfig read_network(const Entry& entry, Problems& problems);
 
-/// Reads the map behind `security:`; a relative directory starts at `base`.
+/// Reads the map behind `security:`; a relative directory starts at `base`, and becomes absolute.
 [[nodiscard]] std::optional<SecurityConfig> read_security(const Entry& entry,
                                                           const std::filesystem::path& base,
                                                           Problems& problems);

@@ -72,16 +72,18 @@ services:
 }
 
 TEST(Reader, ReadsWhereTheKeysAre) {
-  const Deployment deployment = parse_deployment(R"(
-version: 1
-security: {keys: keys, encrypt: false}
-services:
-  - {name: front, kind: simulated}
-)",
-                                                 "/etc/robot.yaml");
+  const std::string text =
+      "version: 1\n"
+      "security: {keys: keys, encrypt: false}\n"
+      "services:\n"
+      "  - {name: front, kind: simulated}\n";
+  const Deployment deployment = parse_deployment(text, "/etc/robot.yaml");
   ASSERT_TRUE(deployment.security.has_value());
   EXPECT_EQ(deployment.security->directory, "/etc/keys");
   EXPECT_FALSE(deployment.security->encrypt);
+  // However the file is named: what runs is compared with what is applied.
+  const Deployment relative = parse_deployment(text, "robot.yaml");
+  EXPECT_EQ(relative.security->directory, std::filesystem::current_path() / "keys");
 }
 
 TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
