@@ -29,7 +29,10 @@ namespace {
 constexpr double last_kills = 0.3;
 constexpr double begin_of_memory = 0.6;
 const std::set<std::string> spared{"front", "walls", "steady@10", "steady_corners"};
-constexpr double most_growth = 0.02;  // of the resident memory of those and quoin up together
+
+/// Of the resident memory of those and quoin up together. In the first minutes the pools reach a
+/// new height now and then.
+double most_growth(double minutes) { return minutes < 10.0 ? 0.05 : 0.02; }
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -96,7 +99,7 @@ ordered_json judge_scans(const ordered_json& summary, Verdict& verdict) {
   return result;
 }
 
-ordered_json judge_memory(const soak::Memory& memory, Verdict& verdict) {
+ordered_json judge_memory(const soak::Memory& memory, double minutes, Verdict& verdict) {
   double before = 0.0;
   double after = 0.0;
   ordered_json processes = ordered_json::array();
@@ -108,7 +111,7 @@ ordered_json judge_memory(const soak::Memory& memory, Verdict& verdict) {
                          {"mib_after", growth.after / 1048576.0}});
   }
   const double growth = before > 0.0 ? after / before - 1.0 : 0.0;
-  verdict.require(growth <= most_growth,
+  verdict.require(growth <= most_growth(minutes),
                   "memory has grown by " + std::to_string(100.0 * growth) + " %");
   return {{"growth", growth}, {"processes", processes}};
 }
@@ -199,7 +202,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
   const ordered_json summary = ordered_json::parse(up.output(), nullptr, false);
   verdict.require(summary.is_object(), "quoin up gave no summary");
   if (summary.is_object()) report["scans"] = judge_scans(summary, verdict);
-  report["memory"] = judge_memory(memory, verdict);
+  report["memory"] = judge_memory(memory, options.minutes, verdict);
   report["left"] = judge_leftovers(deployment, shared_memory, verdict);
   if (options.verbose || !verdict.faults().empty()) std::cerr << up.errors();
   return report;
