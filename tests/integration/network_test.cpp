@@ -308,9 +308,9 @@ TEST_F(Network, TheRobotOfTheExampleAccountsForEachScanThroughASwapAKillAndACut)
 
   const json figures = robot.stop_all();
   std::cout << figures.dump() << '\n';  // what the README tells is from here
-  EXPECT_EQ(figures["beside_corners"]["scans_lost"], 0) << figures;
+  EXPECT_EQ(figures["beside_corners"]["scans_lost"], 0) << robot.logs();
   for (const auto& [stage, count] : figures["corners"]["lost_by_stage"].items()) {
-    EXPECT_EQ(stage, "wctls") << figures;
+    EXPECT_EQ(stage, "wctls") << robot.logs();
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 namespace quoin::tests {
 
@@ -13,10 +13,10 @@ std::set<pid_t> processes_naming(const std::string& text) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream file(entry.path() / "cmdline");
-    const std::string command((std::istreambuf_iterator<char>(file)),
-                              std::istreambuf_iterator<char>());
-    if (command.find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
+    // Reading fails when the process ends meanwhile; an iterator over the buffer would throw then.
+    std::ostringstream command;
+    command << std::ifstream(entry.path() / "cmdline").rdbuf();
+    if (command.str().find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
   }
   return found;
 }
