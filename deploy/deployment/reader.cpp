@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <fstream>
 #include <optional>
 
 #include "core/methods/suggestion.hpp"
 #include "deploy/deployment/deployment.hpp"
-#include "deploy/deployment/kinds.hpp"
 #include "deploy/deployment/network_entries.hpp"
-#include "deploy/deployment/parameter_entries.hpp"
 #include "deploy/deployment/problems.hpp"
+#include "deploy/deployment/service_entries.hpp"
 #include "deploy/deployment/wiring.hpp"
 #include "deploy/deployment/yaml_entries.hpp"
 
@@ -19,9 +17,7 @@ namespace {
 
 constexpr std::size_t largest_file = 1U << 20U;  // [byte]
 constexpr std::size_t most_services = 256;
-constexpr std::size_t longest_name = 64;
 constexpr int highest_domain = 232;
-constexpr int highest_strength = 1'000'000;
 
 class Reader {
  public:
@@ -70,8 +66,8 @@ class Reader {
       }
     }
     if (security && deployment_.network.discovery != Discovery::peers) {
-      // With servers Fast DDS 2.9 ends the process (it has secure ones from 2.10 on); with multicast
-      // some of ten participants that start at once never finish their handshake.
+      // With servers Fast DDS 2.9 ends the process (it has secure ones from 2.10 on); with
+      // multicast some of ten participants that start at once never finish their handshake.
       problems_.add(security->key_at,
                     "security can be had with discovery: peers only; list the addresses of the "
                     "hosts in the network's peers");
@@ -122,168 +118,9 @@ class Reader {
                                         std::to_string(most_services) + " can be deployed");
       return;
     }
-    for (const YAML::Node& node : entry.value) read_service(node);
-  }
-
-  void read_service(const YAML::Node& node) {
-    const Position at = position_of(node.Mark());
-    if (!node.IsMap()) {
-      problems_.add(at, "a service is a map with the keys name and kind, not " + what_is(node));
-      return;
+    for (const YAML::Node& node : entry.value) {
+      if (auto draft = read_service(node, qos_, problems_)) drafts_.push_back(std::move(*draft));
     }
-    DraftService draft;
-    draft.config.position = at;
-    std::optional<Entry> kind, method, parameters, lease;
-    bool named = false;
-    std::optional<std::string> qos = qos_;
-    for (const Entry& entry : entries_of(node, "a service", problems_)) {
-      if (entry.key == "name") {
-        named = true;
-        read_name(entry, draft);
-      } else if (entry.key == "kind") {
-        kind = entry;
-      } else if (entry.key == "input") {
-        if (const auto text = read_text(entry, problems_)) {
-          draft.config.input = *text;
-          draft.input_at = entry.value_at;
-        }
-      } else if (entry.key == "method") {
-        method = entry;
-      } else if (entry.key == "parameters") {
-        parameters = entry;
-      } else if (entry.key == "qos") {
-        qos = read_choice(entry, "QoS preset", qos_names(), problems_);
-      } else if (entry.key == "restart") {
-        if (read_choice(entry, "restart policy", {"always", "never"}, problems_) == "never") {
-          draft.config.restart = RestartPolicy::never;
-        }
-      } else if (entry.key == "host") {
-        read_host(entry, draft);
-      } else if (entry.key == "strength") {
-        draft.config.strength = read_integer(entry, "the strength", 0, highest_strength, problems_);
-      } else if (entry.key == "lease") {
-        lease = entry;
-      } else {
-        problems_.add(entry.key_at,
-                      "unknown key '" + entry.key + "' of a service" +
-                          suggestion(entry.key, {"name", "kind", "input", "method", "parameters",
-                                                 "qos", "restart", "host", "strength", "lease"}));
-      }
-    }
-    if (!named) problems_.add(at, "a service without a name; add name: NAME");
-    if (!kind) {
-      problems_.add(at, "service '" + draft.config.name +
-                            "' has no kind; add kind: KIND (quoin methods lists them)");
-    } else {
-      read_kind(*kind, draft);
-    }
-    if (draft.kind != nullptr) {
-      draft.config.qos = qos.value_or(draft.kind->qos);
-      // A source tells that it lives by its scans alone, which may be 100 ms apart.
-      if (draft.kind->input == MessageType::none) draft.config.lease *= 5;
-      const bool known = read_method(method, draft);
-      if (parameters) {
-        draft.config.parameters = read_parameters(
-            *parameters, draft.config,
-            known ? &parameters_of(*draft.kind, draft.config.method) : nullptr, problems_);
-      }
-      if (known) require_parameters(parameters ? parameters->key_at : at, draft);
-    }
-    if (lease) read_lease(*lease, draft);
-    drafts_.push_back(std::move(draft));
-  }
-
-  void read_lease(const Entry& entry, DraftService& draft) {
-    if (!draft.config.strength) {
-      problems_.add(entry.key_at, "a lease without a strength; add strength: NUMBER");
-      return;
-    }
-    if (const auto seconds = read_seconds(entry, "the lease", 0.02, 60.0, problems_)) {
-      draft.config.lease =
-          std::chrono::round<std::chrono::milliseconds>(std::chrono::duration<double>(*seconds));
-    }
-  }
-
-  void read_host(const Entry& entry, DraftService& draft) {
-    const auto text = read_text(entry, problems_);
-    if (!text) return;
-    if (text->empty() || text->size() > longest_name ||
-        !only_of(*text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._")) {
-      problems_.add(entry.value_at, "the host '" + *text + "' must be up to " +
-                                        std::to_string(longest_name) +
-                                        " letters, digits, -, . and _");
-    }
-    draft.config.host = *text;  // a bad one, too: it has been named
-  }
-
-  void require_parameters(Position at, const DraftService& draft) {
-    try {
-      check_required(parameters_of(*draft.kind, draft.config.method), draft.config.parameters);
-    } catch (const ParameterError& error) {
-      problems_.add(at, "parameter '" + error.parameter() + "' of service '" + draft.config.name +
-                            "' " + error.what());
-    }
-  }
-
-  void read_name(const Entry& entry, DraftService& draft) {
-    draft.name_at = entry.value_at;
-    const auto text = read_text(entry, problems_);
-    if (!text) return;
-    // A bad name is kept, so that inputs that name it give no second error.
-    draft.config.name = *text;
-    if (text->empty() || text->size() > longest_name ||
-        !only_of(*text, "abcdefghijklmnopqrstuvwxyz0123456789_")) {
-      problems_.add(entry.value_at, "the name '" + *text + "' must be 1 to " +
-                                        std::to_string(longest_name) +
-                                        " of the characters a-z, 0-9 and _");
-    }
-  }
-
-  void read_kind(const Entry& entry, DraftService& draft) {
-    const auto text = read_text(entry, problems_);
-    if (!text) return;
-    draft.config.kind = *text;
-    draft.kind = find_kind(*text);
-    if (draft.kind == nullptr) {
-      std::vector<std::string> names;
-      for (const KindInfo& kind : kinds()) names.push_back(kind.name);
-      problems_.add(entry.value_at, "unknown kind '" + *text + "' of service '" +
-                                        draft.config.name + "'" + suggestion(*text, names) +
-                                        " (quoin methods lists them)");
-    }
-  }
-
-  /// False when it is not known which parameters there can be.
-  bool read_method(const std::optional<Entry>& entry, DraftService& draft) {
-    const KindInfo& kind = *draft.kind;
-    if (!entry) {
-      if (!kind.methods.empty()) draft.config.method = kind.methods.front().name;
-      return true;
-    }
-    const auto text = read_text(*entry, problems_);
-    if (!text) return false;
-    if (kind.methods.empty()) {
-      problems_.add(entry->key_at, "kind " + kind.name + " has no methods; remove the method of '" +
-                                       draft.config.name + "'");
-      return true;
-    }
-    std::vector<std::string> names;
-    for (const MethodInfo& info : kind.methods) {
-      if (info.name == *text) {
-        draft.config.method = *text;
-        return true;
-      }
-      names.push_back(info.name);
-    }
-    problems_.add(entry->value_at, "unknown method '" + *text + "' for service '" +
-                                       draft.config.name + "'" + suggestion(*text, names) +
-                                       " (quoin methods lists them)");
-    return false;
-  }
-
-  static const std::vector<std::string>& qos_names() {
-    static const std::vector<std::string> names{"sensor", "feature", "state", "lossless"};
-    return names;
   }
 
   Problems problems_;

@@ -17,8 +17,6 @@ using std::chrono::seconds;
 
 // A scan that was on its way when its reader was matched may be missed; the next one is not.
 constexpr seconds first_scan_patience{2};
-// A service answers within five seconds, or is killed.
-constexpr milliseconds answer_patience{5500};
 
 bool publishes(const ServiceConfig& service) {
   return find_kind(service.kind)->output != MessageType::none;
@@ -34,15 +32,6 @@ ProcessPlan held_plan(ProcessPlan plan, int more_readers) {
   plan.arguments.insert(plan.arguments.end(),
                         {"--observers", std::to_string(more_readers), "--held"});
   return plan;
-}
-
-void set_method(const ServiceConfig& config, msg::ControlRequest& request) {
-  request.method(config.method);
-  for (const ParameterSetting& setting : config.parameters) {
-    msg::ParameterSetting& out = request.parameters().emplace_back();
-    out.name(setting.name);
-    out.value(setting.text);
-  }
 }
 
 /// A line of a service's log without time, name and level.
@@ -65,6 +54,7 @@ Changeover::Changeover(World world, const Deployment& running, const Deployment&
                        const Plan& plan, const std::vector<ProcessPlan>& plans,
                        milliseconds patience)
     : world_(std::move(world)),
+      dialogue_(world_.supervisor, world_.requester, world_.pump),
       running_(running),
       wanted_(wanted),
       plan_(plan),
@@ -167,7 +157,7 @@ void Changeover::wait_until_ready() {
   }
   // No request is lost from the first answer on.
   for (const auto& [name, key] : predecessors_) {
-    if (!ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
+    if (!dialogue_.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
                                "' does not answer; it is process " +
                                std::to_string(world_.supervisor.process_id(key)));
@@ -182,7 +172,8 @@ bool Changeover::ready(Newcomer& newcomer) {
   if (!publishes(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
   newcomer.incarnation = process->incarnation;
-  return ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
+  return dialogue_
+      .ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
       .has_value();
 }
 
@@ -205,40 +196,17 @@ std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
 void Changeover::swap_methods() {
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::swap) continue;
-    std::string refusal;
-    if (!swap(wanted_.service(change.service), refusal)) {
-      throw std::runtime_error("service '" + change.service + "' " + refusal);
+    const Dialogue::Swap swap = dialogue_.swap(wanted_.service(change.service));
+    if (!swap.refusal.empty()) {
+      throw std::runtime_error("service '" + change.service + "' " + swap.refusal);
     }
+    if (swap.first_scan) first_scans_[change.service] = *swap.first_scan;
     swapped_.push_back(change.service);
   }
 }
 
-bool Changeover::swap(const ServiceConfig& config, std::string& refusal) {
-  if (!ask(label(config), 0, msg::ControlAction::CONTROL_DESCRIBE)) {
-    refusal = "does not answer";
-    return false;
-  }
-  msg::ControlRequest request;
-  request.service(label(config));
-  request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
-  set_method(config, request);
-  const std::uint64_t number = world_.requester.send(request);
-  std::optional<msg::ControlReply> reply;
-  (void)wait_until([&] { return (reply = world_.requester.take(number)).has_value(); },
-                   answer_patience);
-  if (!reply) {
-    refusal = "does not answer";
-  } else if (!reply->accepted()) {
-    refusal = "refuses: " + reply->detail();
-  } else if (reply->detail().empty()) {
-    first_scans_[label(config)] = reply->first_sequence_number();
-  }
-  return reply && reply->accepted();
-}
-
 void Changeover::roll_back() {
-  std::string ignored;
-  for (const std::string& name : swapped_) (void)swap(running_.service(name), ignored);
+  for (const std::string& name : swapped_) (void)dialogue_.swap(running_.service(name));
   first_scans_.clear();
   for (const Newcomer& newcomer : newcomers_) {
     const int process_id = world_.supervisor.process_id(newcomer.key);
@@ -255,7 +223,7 @@ void Changeover::roll_back() {
 void Changeover::end(int key) {
   world_.supervisor.retire(key, true);
   // Killed after five seconds.
-  (void)wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+  dialogue_.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
@@ -281,15 +249,16 @@ void Changeover::take_over(const Newcomer& newcomer) {
   const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
   world_.supervisor.retire(predecessor->second, false);
   const auto handed_over =
-      ask(label(*newcomer.config), incarnation_of(predecessor->second),
-          msg::ControlAction::CONTROL_HAND_OVER,
-          same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
+      dialogue_.ask(label(*newcomer.config), incarnation_of(predecessor->second),
+                    msg::ControlAction::CONTROL_HAND_OVER,
+                    same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
   std::uint64_t scan = 0;  // everything that is held
   if (handed_over && handed_over->accepted()) {
     if (same_scans) scan = handed_over->first_sequence_number();
   } else {
     world_.supervisor.kill(predecessor->second);
-    (void)wait_until([&] { return !world_.supervisor.running(predecessor->second); }, seconds(5));
+    dialogue_.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
+                         seconds(5));
   }
   first_scans_[label(*newcomer.config)] = same_scans ? scan : held.first_sequence_number();
   begin_with(newcomer, scan);
@@ -298,8 +267,8 @@ void Changeover::take_over(const Newcomer& newcomer) {
 msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (true) {
-    const auto reply =
-        ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_HOLD);
+    const auto reply = dialogue_.ask(label(*newcomer.config), newcomer.incarnation,
+                                     msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
     if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
     if (!world_.pump()) return *reply;
@@ -308,8 +277,8 @@ msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patien
 
 void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
   world_.supervisor.adopt(newcomer.key, *newcomer.plan);
-  const auto reply = ask(label(*newcomer.config), newcomer.incarnation,
-                         msg::ControlAction::CONTROL_TAKE_OVER, scan);
+  const auto reply = dialogue_.ask(label(*newcomer.config), newcomer.incarnation,
+                                   msg::ControlAction::CONTROL_TAKE_OVER, scan);
   // Started again it works like any other.
   if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
 }
@@ -325,73 +294,9 @@ void Changeover::stop_removed() {
   for (const auto& [level, keys] : levels) {
     for (const int key : keys) world_.supervisor.retire(key, true);
     for (const int key : keys) {
-      (void)wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+      dialogue_.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
     }
   }
-}
-
-std::optional<msg::ControlReply> Changeover::ask(const std::string& service,
-                                                 std::uint64_t incarnation,
-                                                 msg::ControlAction action,
-                                                 std::uint64_t sequence_number) {
-  // Only the first request to a process can get lost: before the endpoints are matched.
-  const bool question = action == msg::ControlAction::CONTROL_DESCRIBE;
-  const auto deadline = Clock::now() + (question ? milliseconds(3000) : answer_patience);
-  do {
-    msg::ControlRequest request;
-    request.service(service);
-    request.incarnation(incarnation);
-    request.action(action);
-    request.sequence_number(sequence_number);
-    const std::uint64_t number = world_.requester.send(request);
-    std::optional<msg::ControlReply> reply;
-    (void)wait_until([&] { return (reply = world_.requester.take(number)).has_value(); },
-                     question ? milliseconds(300) : answer_patience);
-    if (reply) return reply;
-  } while (Clock::now() < deadline && !world_.supervisor.stopping());
-  return std::nullopt;
-}
-
-bool Changeover::wait_until(const std::function<bool()>& condition, milliseconds patience) {
-  const auto deadline = Clock::now() + patience;
-  while (!condition()) {
-    if (Clock::now() >= deadline || !world_.pump()) return false;
-  }
-  return true;
-}
-
-Deployment described_by_its_services(const Deployment& deployment, const Supervisor& supervisor,
-                                     Requester& requester, const std::function<bool()>& pump) {
-  Deployment described = deployment;
-  std::map<std::uint64_t, ServiceConfig*> asked;
-  for (ServiceConfig& service : described.services) {
-    const auto key = supervisor.key_of(label(service));
-    if (service.method.empty() || !key || !supervisor.running(*key)) continue;
-    msg::ControlRequest request;
-    request.service(label(service));
-    request.action(msg::ControlAction::CONTROL_DESCRIBE);
-    asked[requester.send(request)] = &service;
-  }
-  const auto deadline = std::chrono::steady_clock::now() + seconds(1);
-  while (!asked.empty() && std::chrono::steady_clock::now() < deadline && pump()) {
-    std::erase_if(asked, [&](const auto& entry) {
-      const auto reply = requester.take(entry.first);
-      if (!reply) return false;
-      ServiceConfig& service = *entry.second;
-      const auto& methods = find_kind(service.kind)->methods;
-      if (std::none_of(methods.begin(), methods.end(),
-                       [&](const MethodInfo& method) { return method.name == reply->method(); })) {
-        return true;
-      }
-      service.method = reply->method();
-      service.parameters.clear();
-      for (const msg::ParameterSetting& setting : reply->parameters()) {
-        service.parameters.push_back({setting.name(), setting.value()});
-      }
-      return true;
-    });
-  }
-  return described;
 }
 
 }  // namespace quoin::deploy

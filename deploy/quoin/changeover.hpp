@@ -7,12 +7,12 @@
 #include <functional>
 #include <idl/Control.h>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "deploy/apply/plan.hpp"
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/quoin/dialogue.hpp"
 #include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/requester.hpp"
 #include "deploy/supervision/supervisor.hpp"
@@ -31,7 +31,7 @@ class Changeover {
     Supervisor& supervisor;
     Monitor& monitor;
     Requester& requester;
-    /// Lets the processes be supervised for a moment; false when the deployment is to stop.
+    /// As Dialogue takes it.
     std::function<bool()> pump;
     /// The last line that a service has written; "" when there is none.
     std::function<std::string(const std::string& service)> last_line;
@@ -69,25 +69,16 @@ class Changeover {
   [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
   void swap_methods();
   void roll_back();
-  void adopt_newcomers();
   void begin(const Newcomer& newcomer);
   void take_over(const Newcomer& newcomer);
   [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
                                        std::chrono::milliseconds patience);
   void begin_with(const Newcomer& newcomer, std::uint64_t scan);
   void stop_removed();
-
-  [[nodiscard]] bool swap(const ServiceConfig& config, std::string& refusal);
-  [[nodiscard]] std::optional<msg::ControlReply> ask(const std::string& service,
-                                                     std::uint64_t incarnation,
-                                                     msg::ControlAction action,
-                                                     std::uint64_t sequence_number = 0);
-  /// False after `patience`, or when the deployment is to stop.
-  [[nodiscard]] bool wait_until(const std::function<bool()>& condition,
-                                std::chrono::milliseconds patience);
   void end(int key);
 
   World world_;
+  Dialogue dialogue_;
   const Deployment& running_;
   const Deployment& wanted_;
   const Plan& plan_;
@@ -99,12 +90,5 @@ class Changeover {
   std::vector<std::string> swapped_;
   std::map<std::string, std::uint64_t> first_scans_;
 };
-
-/// What the processes of a deployment do at present: as `deployment`, but with the methods and
-/// parameters that were exchanged by request. `pump` as above.
-[[nodiscard]] Deployment described_by_its_services(const Deployment& deployment,
-                                                   const Supervisor& supervisor,
-                                                   Requester& requester,
-                                                   const std::function<bool()>& pump);
 
 }  // namespace quoin::deploy

@@ -72,7 +72,7 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
   }
   const Deployment wanted = parse_deployment(text, request.file);
   const Deployment running =
-      described_by_its_services(deployment_, world.supervisor, world.requester, world.pump);
+      Dialogue(world.supervisor, world.requester, world.pump).describe(deployment_);
   const Plan plan = plan_changes(running, wanted, host_);
   outcome.steps = steps_of(plan);
   if (!plan.obstacles.empty()) throw std::runtime_error(joined(plan.obstacles));
