@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "deploy/keys/certificate.hpp"
+#include "deploy/keys/governance.hpp"
 #include "deploy/keys/key_files.hpp"
 #include "deploy/keys/permissions.hpp"
 #include "deploy/keys/private_file.hpp"
@@ -59,8 +60,11 @@ class Check {
     if (!problems_.empty()) return problems_;
     attempt(trust.authority, copy_trust, [&] {
       const OpensslCertificate issuer = parse_certificate(authority);
-      attempt(trust.governance, copy_trust,
-              [&] { (void)verify_document(governance, issuer.get()); });
+      attempt(trust.governance, renew + ", then copy trust to each host", [&] {
+        if (verify_document(governance, issuer.get()) != governance_text(security.encrypt)) {
+          throw std::runtime_error("is of another version of quoin");
+        }
+      });
       attempt(files.certificate, make + " --force renews it", [&] {
         const OpensslCertificate own = parse_certificate(certificate);
         const std::string reason =

@@ -58,6 +58,10 @@ void make_key_directory(const std::filesystem::path& directory, int days, bool r
   write_file(trust.authority, certificate_text(authority.certificate.get()), mode_public, true);
   write_file(trust.revoked, revocation_list_text(make_revocation_list(authority).get()),
              mode_public, true);
+  write_governance(directory, authority);
+}
+
+void write_governance(const std::filesystem::path& directory, const KeyPair& authority) {
   for (const bool encrypt : {true, false}) {
     write_file(trust_files(directory, encrypt).governance,
                sign_document(governance_text(encrypt), authority), mode_public, true);

@@ -18,6 +18,9 @@ namespace quoin::deploy {
 /// `replace` allows to overwrite an authority; its identities are void then.
 void make_key_directory(const std::filesystem::path& directory, int days, bool replace);
 
+/// Signs the governance documents of this version, in place of those that are there.
+void write_governance(const std::filesystem::path& directory, const KeyPair& authority);
+
 /// The authority of the directory, with its private key.
 [[nodiscard]] KeyPair load_authority(const std::filesystem::path& directory);
 

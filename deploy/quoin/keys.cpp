@@ -83,6 +83,7 @@ int sign_permissions(const KeyOptions& options) {
   const Deployment deployment = load_deployment(options.file);
   const KeyPair authority = load_authority(options.directory);
   const Validity validity = valid_for_days(options.days);
+  write_governance(options.directory, authority);
   const std::vector<std::string> there = identities_in(options.directory);
   std::set<std::string> left(there.begin(), there.end());
   std::size_t signed_count = 0;

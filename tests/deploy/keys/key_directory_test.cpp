@@ -166,6 +166,12 @@ TEST_F(KeyDirectory, WhatIsMissingOrOutdatedIsToldWithTheWayOut) {
   permit("front", valid_for_days(1));
   deployment_.domain = 8;
   EXPECT_THAT(key_problems(deployment_, "front"), ElementsAre(HasSubstr("other topics")));
+  deployment_.domain = 7;
+  const KeyPair authority = load_authority(keys_);
+  write_file(trust_files(keys_, true).governance, sign_document("<dds/>", authority), 0644, true);
+  EXPECT_THAT(key_problems(deployment_, "front"), ElementsAre(HasSubstr("another version")));
+  write_governance(keys_, authority);
+  EXPECT_THAT(key_problems(deployment_, "front"), IsEmpty());
   deployment_.security.reset();
   EXPECT_THAT(key_problems(deployment_, "front"), IsEmpty());
 }
