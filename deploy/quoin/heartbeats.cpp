@@ -6,6 +6,7 @@
 
 #include "deploy/keys/key_files.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/heartbeat.hpp"
 
 namespace quoin::deploy {
 
@@ -15,6 +16,26 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t most_namespaces = 64;
 }  // namespace
+
+ServiceReport report_of(const msg::ServiceStatus& status) {
+  ServiceReport report;
+  report.state = runtime::state_name(status.state());
+  report.detail = status.detail();
+  report.received = status.received();
+  report.first_number = status.first_sequence_number();
+  report.published = status.published();
+  report.lost = status.lost();
+  for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
+  report.upstream_lost = status.upstream_lost();
+  report.failures = status.failures();
+  report.rate = status.rate();
+  report.latency_p50 = status.latency_p50();
+  report.latency_p99 = status.latency_p99();
+  report.processing_p50 = status.processing_p50();
+  report.processing_p99 = status.processing_p99();
+  report.resident_memory = status.resident_memory();
+  return report;
+}
 
 HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::string& name,
                                      bool all_namespaces)

@@ -12,10 +12,14 @@
 #include <utility>
 
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/report/figures.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 
 namespace quoin::deploy {
+
+/// What a heartbeat says, in the terms of a report.
+[[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
 /// What one process told of itself.
 struct HeardHeartbeats {

@@ -3,12 +3,11 @@
 #include "deploy/quoin/monitor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "deploy/deployment/kinds.hpp"
 #include "deploy/keys/key_files.hpp"
+#include "deploy/quoin/heartbeats.hpp"
 #include "services/runtime/clock.hpp"
-#include "services/runtime/heartbeat.hpp"
 #include "services/runtime/qos.hpp"
 
 namespace quoin::deploy {
@@ -26,39 +25,20 @@ std::string source_of(const Deployment& deployment, const ServiceConfig& service
 
 }  // namespace
 
-ServiceReport report_of(const msg::ServiceStatus& status) {
-  ServiceReport report;
-  report.state = runtime::state_name(status.state());
-  report.detail = status.detail();
-  report.received = status.received();
-  report.first_number = status.first_sequence_number();
-  report.published = status.published();
-  report.lost = status.lost();
-  for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
-  report.upstream_lost = status.upstream_lost();
-  report.failures = status.failures();
-  report.rate = status.rate();
-  report.latency_p50 = status.latency_p50();
-  report.latency_p99 = status.latency_p99();
-  report.processing_p50 = status.processing_p50();
-  report.processing_p99 = status.processing_p99();
-  report.resident_memory = status.resident_memory();
-  return report;
-}
-
 Monitor::Monitor(const Deployment& deployment, const std::string& host)
     : file_(deployment.file.string()),
       host_(host),
       participant_(runtime::participant_config(deployment, "quoin", operator_identity)),
       status_reader_(participant_, status_topic(deployment.name_space), runtime::QosPreset::state) {
   wait_set_.add(status_reader_);
-  add(deployment);
-  for (CornerWatch& watch : corners_) watch.joined_late = false;
+  add(deployment, false);
   settle(deployment);
   thread_ = std::thread([this] { listen(); });
 }
 
-void Monitor::add(const Deployment& wanted) {
+void Monitor::add(const Deployment& wanted) { add(wanted, true); }
+
+void Monitor::add(const Deployment& wanted, bool joined_late) {
   const std::lock_guard lock(mutex_);
   for (const ServiceConfig& service : wanted.services) {
     const auto [watch, added] = services_.try_emplace(label(service));
@@ -68,21 +48,17 @@ void Monitor::add(const Deployment& wanted) {
       order_.push_back(label(service));
     }
     if (service.host != host_ || find_kind(service.kind)->output != MessageType::corners) continue;
-    listen_to_corners(wanted, service);
+    listen_to_corners(wanted, service, joined_late);
   }
 }
 
-void Monitor::listen_to_corners(const Deployment& deployment, const ServiceConfig& service) {
-  for (const CornerWatch& watch : corners_) {
-    if (watch.name == service.name) return;  // its instances write to one topic
+void Monitor::listen_to_corners(const Deployment& deployment, const ServiceConfig& service,
+                                bool joined_late) {
+  for (const auto& watch : corners_) {
+    if (watch->name() == service.name) return;  // its instances write to one topic
   }
-  CornerWatch watch;
-  watch.name = service.name;
-  watch.joined_late = true;
-  watch.reader = std::make_unique<runtime::Reader<msg::Corners>>(
-      participant_, output_topic(deployment, service), runtime::output_qos(service));
-  wait_set_.add(*watch.reader);
-  corners_.push_back(std::move(watch));
+  corners_.push_back(std::make_unique<CornerWatch>(participant_, deployment, service, joined_late));
+  wait_set_.add(corners_.back()->reader());
 }
 
 void Monitor::settle(const Deployment& deployment) {
@@ -106,13 +82,11 @@ void Monitor::settle(const Deployment& deployment) {
     if (known != services_.end() && !known->second.present) order.push_back(name);
   }
   order_ = std::move(order);
-  for (CornerWatch& watch : corners_) {
-    if (is_present(watch.name)) {
-      watch.source = source_of(deployment, deployment.service(watch.name));
+  for (const auto& watch : corners_) {
+    if (is_present(watch->name())) {
+      watch->set_source(source_of(deployment, deployment.service(watch->name())));
     } else {
-      // Should it come back, what happened meanwhile was for nobody.
-      watch.accounting.interrupt();
-      watch.joined_late = true;
+      watch->interrupt();
     }
   }
 }
@@ -178,11 +152,8 @@ bool Monitor::take_all() {
     take(status_);
     any = true;
   }
-  for (CornerWatch& watch : corners_) {
-    while (watch.reader->take(message_)) {
-      take(watch, message_);
-      any = true;
-    }
+  for (const auto& watch : corners_) {
+    any = watch->take_all([this](const msg::Header& header) { take_note_of(header); }) || any;
   }
   return any;
 }
@@ -216,25 +187,13 @@ Monitor::ServiceWatch* Monitor::writer_of(const msg::StageTrace& trace) {
   return several ? nullptr : only;
 }
 
-void Monitor::take(CornerWatch& watch, const msg::Corners& message) {
-  const bool first = watch.accounting.received() == 0;
-  const std::uint64_t received = watch.accounting.received();
-  watch.accounting.receive(message.header());
-  if (watch.accounting.received() == received) return;  // the same scan again
-  if (!message.header().trace().empty()) watch.source_trace = message.header().trace()[0];
-  if (first && !watch.joined_late) watch.lost_at_start = message.header().sequence_number();
-  // Heartbeats come once a second; the trace tells at once what a process had published, which is
-  // all there is when it is killed.
-  for (const msg::StageTrace& trace : message.header().trace()) {
+// Heartbeats come once a second; the trace tells at once what a process had published, which is all
+// there is when it is killed.
+void Monitor::take_note_of(const msg::Header& header) {
+  for (const msg::StageTrace& trace : header.trace()) {
     ServiceWatch* service = writer_of(trace);
     if (service == nullptr) continue;
     service->incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
-  }
-  watch.corners += message.corners().size();
-  for (const msg::Corner& corner : message.corners()) {
-    watch.sigma.add(std::sqrt(0.5 * (corner.covariance_xx() + corner.covariance_yy())));
-    // In mm^2: the histogram ends at 1e-9, which good corners come near to in m^2.
-    watch.ellipse_area.add(corner.ellipse_area() * 1e6);
   }
 }
 
@@ -300,25 +259,11 @@ DeploymentFigures Monitor::figures() const {
     }
     if (watch.here) figures.services.push_back(std::move(entry));
   }
-  for (const CornerWatch& watch : corners_) {
+  for (const auto& watch : corners_) {
     const bool was_there = std::any_of(services_.begin(), services_.end(), [&](const auto& entry) {
-      return entry.second.name == watch.name;
+      return entry.second.name == watch->name();
     });
-    if (!was_there) continue;
-    CornerFigures corner;
-    corner.name = watch.name;
-    corner.scans_delivered = watch.accounting.received();
-    corner.lost_by_stage = watch.accounting.lost_by_stage();
-    if (watch.lost_at_start > 0) corner.lost_by_stage["start"] += watch.lost_at_start;
-    for (const auto& [stage, count] : corner.lost_by_stage) corner.scans_lost += count;
-    corner.scans_expected = corner.scans_delivered + corner.scans_lost;
-    if (corner.scans_delivered > 0) {
-      corner.mean_corners =
-          static_cast<double>(watch.corners) / static_cast<double>(corner.scans_delivered);
-    }
-    corner.median_sigma = watch.sigma.quantile(0.5);
-    corner.median_ellipse_area = watch.ellipse_area.quantile(0.5) * 1e-6;
-    figures.corners.push_back(std::move(corner));
+    if (was_there) figures.corners.push_back(watch->figures());
   }
   return figures;
 }
@@ -344,16 +289,16 @@ void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout
 
 void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
-  for (CornerWatch& watch : corners_) {
-    if (!is_present(watch.name)) continue;
-    if (watch.accounting.received() > 0) {
-      const ServiceWatch* source = writer_of(watch.source_trace);
-      // A source on another host that goes on without us: its further scans are no loss.
-      if (source == nullptr || (!source->here && !ended(*source))) continue;
-      watch.accounting.finish(source->incarnations.numbered_by_newest());
-    } else if (!watch.joined_late) {
-      watch.lost_at_start = scans_published(watch.source);
+  for (const auto& watch : corners_) {
+    if (!is_present(watch->name())) continue;
+    if (watch->heard_nothing()) {
+      watch->end(scans_published(watch->source()));
+      continue;
     }
+    const ServiceWatch* source = writer_of(watch->source_trace());
+    // A source on another host that goes on without us: its further scans are no loss.
+    if (source == nullptr || (!source->here && !ended(*source))) continue;
+    watch->end(source->incarnations.numbered_by_newest());
   }
 }
 

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <idl/Corners.h>
 #include <idl/Status.h>
 #include <map>
 #include <memory>
@@ -16,17 +15,13 @@
 #include <thread>
 #include <vector>
 
-#include "core/evaluation/quantile_histogram.hpp"
 #include "deploy/deployment/deployment.hpp"
+#include "deploy/quoin/corner_watch.hpp"
 #include "deploy/report/figures.hpp"
-#include "services/runtime/accounting.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 
 namespace quoin::deploy {
-
-/// What a heartbeat says, in the terms of a report.
-[[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
 /// A process as its newest heartbeat describes it.
 struct ProcessWatch {
@@ -89,25 +84,14 @@ class Monitor {
     bool settled = false;  // has ever been
     bool was_active = false;
   };
-  struct CornerWatch {
-    std::string name;
-    std::string source;
-    msg::StageTrace source_trace;  // of the last message
-    std::unique_ptr<runtime::Reader<msg::Corners>> reader;
-    runtime::ScanAccounting accounting;
-    bool joined_late = false;  // the scans before were for nobody
-    std::uint64_t lost_at_start = 0;
-    std::uint64_t corners = 0;
-    QuantileHistogram sigma;
-    QuantileHistogram ellipse_area;
-  };
-
   void listen();
   bool take_all();
   void take(const msg::ServiceStatus& status);
-  void take(CornerWatch& watch, const msg::Corners& message);
+  void take_note_of(const msg::Header& header);
   void account_for_the_end();
-  void listen_to_corners(const Deployment& deployment, const ServiceConfig& service);
+  void listen_to_corners(const Deployment& deployment, const ServiceConfig& service,
+                         bool joined_late);
+  void add(const Deployment& wanted, bool joined_late);
   [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
   [[nodiscard]] static bool ended(const ServiceWatch& watch);
   [[nodiscard]] bool is_present(const std::string& name) const;
@@ -122,9 +106,8 @@ class Monitor {
   std::map<std::string, ServiceWatch> services_;  // by label
   std::vector<std::string> order_;                // of the services, removed ones last
   std::map<int, std::uint64_t> forgotten_;        // process ids; up to what incarnation
-  std::vector<CornerWatch> corners_;
+  std::vector<std::unique_ptr<CornerWatch>> corners_;
   msg::ServiceStatus status_;
-  msg::Corners message_;
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

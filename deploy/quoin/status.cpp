@@ -12,7 +12,6 @@
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/heartbeats.hpp"
-#include "deploy/quoin/monitor.hpp"
 #include "deploy/quoin/network_options.hpp"
 #include "deploy/report/summary.hpp"
 #include "deploy/report/table.hpp"

@@ -45,12 +45,15 @@ bool Service::wait_for_readers(const WriterBase& writer) {
   if (expected_readers == 0) return !stop.requested();
   heartbeat.set_state(msg::ServiceState::STATE_STARTING,
                       "waiting for " + std::to_string(expected_readers) + " readers");
-  const auto deadline = steady_clock::now() + std::chrono::seconds(10);
+  // Each pair of participants has to shake hands first, which takes ten of them that start at once
+  // on a busy machine many seconds.
+  const std::chrono::seconds patience(deployment.security ? 30 : 10);
+  const auto deadline = steady_clock::now() + patience;
   while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
     if (stop.requested()) return false;
     if (!succession.held() && steady_clock::now() > deadline) {
-      spdlog::warn("only {} of {} readers are there after 10 s; going on without the others",
-                   writer.matched(), expected_readers);
+      spdlog::warn("only {} of {} readers are there after {} s; going on without the others",
+                   writer.matched(), expected_readers, patience.count());
       break;
     }
   }

@@ -31,9 +31,9 @@ struct Service {
   Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
           const deploy::ServiceConfig& service_config, std::size_t readers, bool held);
 
-  /// Waits until `writer` has the expected readers. Goes on without them after ten seconds, since a
-  /// reader that crashed must not hold up the others, but not when held: the other process is still
-  /// at work. False when asked to stop meanwhile.
+  /// Waits until `writer` has the expected readers. Goes on without them after ten seconds, with
+  /// security after thirty, since a reader that crashed must not hold up the others, but not when
+  /// held: the other process is still at work. False when asked to stop meanwhile.
   [[nodiscard]] bool wait_for_readers(const WriterBase& writer);
 };
 

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <idl/Corners.h>
+#include <string>
+
+#include "core/evaluation/quantile_histogram.hpp"
+#include "deploy/deployment/deployment.hpp"
+#include "deploy/report/figures.hpp"
+#include "services/runtime/accounting.hpp"
+#include "services/runtime/participant.hpp"
+#include "services/runtime/reader.hpp"
+
+namespace quoin::deploy {
+
+/// Takes what one corner service publishes, and accounts for each scan of its source.
+class CornerWatch {
+ public:
+  /// `joined_late`: the deployment ran before, the scans so far are for nobody. Throws
+  /// std::runtime_error when DDS refuses.
+  CornerWatch(runtime::Participant& participant, const Deployment& deployment,
+              const ServiceConfig& service, bool joined_late);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] runtime::ReaderBase& reader() { return reader_; }
+  /// Name of the service that its scans come from.
+  void set_source(const std::string& name) { source_ = name; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+  /// Of the last message: the source's part.
+  [[nodiscard]] const msg::StageTrace& source_trace() const { return source_trace_; }
+
+  /// Takes all that has come; `on_scan` gets the header of each new scan. False when there was
+  /// nothing.
+  bool take_all(const std::function<void(const msg::Header&)>& on_scan);
+
+  /// It is no part of the deployment. Should it come back, what happens meanwhile is for nobody.
+  void interrupt();
+  [[nodiscard]] bool heard_nothing() const { return accounting_.received() == 0; }
+  /// The source has numbered this many scans and ended.
+  void end(std::uint64_t scans);
+
+  [[nodiscard]] CornerFigures figures() const;
+
+ private:
+  void add(const msg::Corners& message);
+
+  std::string name_;
+  std::string source_;
+  msg::StageTrace source_trace_;
+  runtime::Reader<msg::Corners> reader_;
+  runtime::ScanAccounting accounting_;
+  bool joined_late_;
+  std::uint64_t lost_at_start_ = 0;
+  std::uint64_t corners_ = 0;
+  QuantileHistogram sigma_;
+  QuantileHistogram ellipse_area_;
+  msg::Corners message_;  // memory is kept from scan to scan
+};
+
+}  // namespace quoin::deploy
