@@ -16,7 +16,6 @@
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -32,6 +31,7 @@
 #include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
+#include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
 
@@ -379,16 +379,6 @@ void add_extraction(const std::string& path, nlohmann::ordered_json& figures) {
   figures["extraction_us"] = extraction * 1e-3;
   figures["conversion_us"] = conversion * 1e-3;
   figures["extraction_over_conversion"] = extraction / conversion;
-}
-
-void print(const nlohmann::ordered_json& figures, bool json) {
-  if (json) {
-    std::cout << figures.dump(2) << '\n';
-    return;
-  }
-  for (const auto& [name, value] : figures.items()) {
-    std::cout << std::left << std::setw(30) << name << "  " << value << '\n';
-  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <stdexcept>
@@ -10,7 +9,6 @@
 #include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
-#include <vector>
 
 namespace quoin::benchmarks {
 
@@ -42,13 +40,6 @@ inline double proportional_mib(pid_t process) {
     if (word == "Pss:") file >> kib;
   }
   return kib / 1024.0;
-}
-
-inline double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(share * last + 0.5)];
 }
 
 }  // namespace quoin::benchmarks

@@ -25,6 +25,7 @@
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/reader.hpp"
+#include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/deployment.hpp"
 

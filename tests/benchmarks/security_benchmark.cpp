@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <idl/Corners.h>
-#include <iomanip>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/runtime/clock.hpp"
+#include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/keys.hpp"
 
@@ -116,14 +116,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "As a JSON object");
   CLI11_PARSE(app, argc, argv);
   try {
-    const auto figures = compare(rounds, std::chrono::seconds(seconds));
-    if (json) {
-      std::cout << figures.dump(2) << '\n';
-      return 0;
-    }
-    for (const auto& [name, value] : figures.items()) {
-      std::cout << std::left << std::setw(30) << name << "  " << value << '\n';
-    }
+    print(compare(rounds, std::chrono::seconds(seconds)), json);
   } catch (const std::exception& error) {
     std::cerr << "security_benchmark: " << error.what() << '\n';
     return 1;

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <idl/Segments.h>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "services/runtime/accounting.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
+#include "tests/benchmarks/figures.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 using namespace quoin;
@@ -69,16 +69,6 @@ class Listener {
   runtime::ScanAccounting accounting_;
   msg::Segments message_;
 };
-
-void print(const nlohmann::ordered_json& figures, bool json) {
-  if (json) {
-    std::cout << figures.dump(2) << '\n';
-    return;
-  }
-  for (const auto& [name, value] : figures.items()) {
-    std::cout << std::left << std::setw(30) << name << "  " << value << '\n';
-  }
-}
 
 nlohmann::ordered_json measure(int kills) {
   const tests::TestDeployment deployment(R"(
@@ -135,7 +125,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "As a JSON object");
   CLI11_PARSE(app, argc, argv);
   try {
-    print(measure(kills), json);
+    benchmarks::print(measure(kills), json);
   } catch (const std::exception& error) {
     std::cerr << "standby_benchmark: " << error.what() << '\n';
     return 1;
