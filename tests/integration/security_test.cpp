@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <idl/Control.h>
 #include <idl/Scan.h>
+#include <idl/Segments.h>
 #include <memory>
 #include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/keys.hpp"
 
@@ -112,6 +114,36 @@ std::unique_ptr<Intruder> expired_intruder(const ClosedDeployment& deployment,
     }
   }
   throw std::runtime_error("no participant starts in time");
+}
+
+// Samples that are sent again share messages, filled up to the last bytes that there are.
+TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
+  const ClosedDeployment deployment;
+  runtime::Participant walls(deployment.participant("walls"));
+  runtime::Participant wctls(deployment.participant("wctls"));
+  const std::string topic = deployment.topic("walls");
+  runtime::Writer<msg::Segments> writer(walls, topic, runtime::QosPreset::lossless);
+  runtime::Reader<msg::Segments> reader(wctls, topic, runtime::QosPreset::lossless);
+  ASSERT_TRUE(writer.wait_for_readers(1, 30s));
+
+  // More than the reader keeps: it has to ask for the others again.
+  constexpr std::size_t samples = 450;
+  msg::Segments sample;
+  msg::Segments taken;
+  for (std::size_t length = 100; length < 900; length += 25) {
+    sample.header().sensor(std::string(length, 'x'));
+    for (std::size_t i = 0; i < samples; ++i) {
+      sample.header().sequence_number(i);
+      // A full history is told at once when an acknowledgement comes that makes no room.
+      ASSERT_TRUE(tests::eventually([&] { return writer.write(sample); })) << i;
+    }
+    std::size_t expected = 0;
+    ASSERT_TRUE(tests::eventually([&] {
+      while (reader.take(taken)) EXPECT_EQ(taken.header().sequence_number(), expected++);
+      return expected == samples;
+    })) << expected
+        << " of " << length;
+  }
 }
 
 TEST(Security, OnlyTheInvitedReadAndWrite) {

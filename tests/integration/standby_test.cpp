@@ -20,7 +20,7 @@ using tests::StatusRecorder;
 using tests::TestDeployment;
 
 const char* const two_fitters = R"(
-  - {name: front, kind: simulated, parameters: {rate_hz: 50}}
+  - {name: front, kind: simulated, qos: lossless, parameters: {rate_hz: 50}}
   - {name: walls, kind: segmentation, input: front, method: iepf}
   - {name: wctls, kind: line_fitting, input: walls, method: wctls, strength: 2}
   - {name: wctls, kind: line_fitting, input: walls, method: utls, strength: 1}
