@@ -270,6 +270,38 @@ TEST_F(Network, LosslessLosesNothingOnLinksThatLoseAndDelay) {
   EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
 }
 
+TEST_F(Network, ApplyChangesTheShareOfTheHostThatIsNamed) {
+  Robot robot("network: {interfaces: eth0}\nqos: lossless\n");
+  for (const char* host : {"lidar", "compute", "base"}) robot.up(host);
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  const auto lines = robot.latest("lines").incarnation();
+  const std::string changed = robot.deployment().write("changed.yaml", R"(
+  - {name: front, kind: simulated, host: lidar, parameters: {rate_hz: 20}}
+  - {name: walls, kind: segmentation, input: front, host: compute}
+  - {name: lines, kind: line_fitting, input: walls, method: utls, host: compute}
+  - {name: beside, kind: line_fitting, input: walls, method: pca, host: compute}
+  - {name: corners, kind: corner_estimation, input: lines, host: base}
+)");
+  const auto actions_on = [&](const std::string& host) {
+    Process apply = robot.quoin("lidar", {"apply", changed, "--host", host, "--json"});
+    EXPECT_EQ(apply.wait(30s), 0) << apply.errors();
+    std::map<std::string, std::string> actions;
+    const json outcome = json::parse(apply.output(), nullptr, false);
+    for (const json& step : outcome["steps"]) {
+      actions[step["service"]] = step["action"];
+    }
+    return actions;
+  };
+  using Actions = std::map<std::string, std::string>;
+  EXPECT_EQ(actions_on("compute"),
+            (Actions{{"walls", "keep"}, {"lines", "swap"}, {"beside", "start"}}));
+  ASSERT_TRUE(robot.has_published("beside", 10));
+  EXPECT_EQ(robot.latest("lines").method(), "utls");
+  EXPECT_EQ(robot.latest("lines").incarnation(), lines);
+  EXPECT_EQ(actions_on("base"), (Actions{{"corners", "keep"}}));
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+}
+
 /// The deployment of an example, without what a test chooses itself: head and services.
 std::pair<std::string, std::string> example(const std::string& name) {
   std::ifstream file(std::filesystem::path(QUOIN_EXAMPLES_DIR) / name);
