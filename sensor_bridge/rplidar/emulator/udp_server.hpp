@@ -8,7 +8,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// The byte stream in datagrams, to whoever has sent one last.
+/// The byte stream in datagrams, to whoever has made a request last.
 class UdpServer : public Link {
  public:
   /// What clients have room for.

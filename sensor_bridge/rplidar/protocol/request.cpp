@@ -12,7 +12,6 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-constexpr std::uint8_t request_sync = 0xA5;
 constexpr std::size_t header_bytes = 3;  // sync, command, length
 
 bool has_payload(std::uint8_t command) { return (command & 0x80) != 0; }

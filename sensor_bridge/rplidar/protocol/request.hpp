@@ -30,6 +30,9 @@ enum class Command : std::uint8_t {
   accessory_board = 0xFF,
 };
 
+/// What a request begins with.
+inline constexpr std::uint8_t request_sync = 0xA5;
+
 /// The bytes of one request: 0xA5, command, and with bit 7 of the command set length, payload and
 /// checksum.
 class Request {

@@ -131,6 +131,8 @@ TEST(Emulator, ServesUdp) {
   EXPECT_THAT(served.endpoint(), ::testing::MatchesRegex("udp://127.0.0.1:[1-9][0-9]*"));
   PlainClient client(served.endpoint());
   expect_a_good_stream(client);
+  const PlainClient stray(served.endpoint());
+  stray.send("52 54 50 53");
   // A few capsules make a datagram; what was sent meanwhile waits in the socket.
   std::size_t bytes = 0;
   for (int i = 0; i < 50; ++i) {
