@@ -111,7 +111,7 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
   }
   service.heartbeat.stopping();
   // What has been written must reach the readers before the writer goes.
-  if (!writer.wait_for_acknowledgments(std::chrono::seconds(2))) {
+  if (!writer.wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
   service.succession.on_request(nullptr);

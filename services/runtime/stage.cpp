@@ -50,7 +50,7 @@ class Stage {
       read(reader);
     }
     service_.heartbeat.stopping();
-    if (!writer_.wait_for_acknowledgments(std::chrono::seconds(2))) {
+    if (!writer_.wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
       spdlog::warn("not all readers have acknowledged the last results");
     }
     service_.succession.left(next_sequence_);
