@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "sensor_bridge/rplidar/driver/driver.hpp"
 
@@ -23,7 +25,7 @@ class Recorder final : public DriverListener {
 
   void revolution(const Revolution& revolution, const ScanMode& /*mode*/) override {
     ++result_.revolutions;
-    seconds_ += std::chrono::duration<double>(revolution.end - revolution.begin).count();
+    durations_.push_back(std::chrono::duration<double>(revolution.end - revolution.begin).count());
     samples_ += revolution.distance_q2.size();
     returns_ += revolution.distance_q2.size() -
                 static_cast<std::size_t>(std::ranges::count(revolution.distance_q2, 0U));
@@ -42,9 +44,13 @@ class Recorder final : public DriverListener {
 
   [[nodiscard]] Measurement result() const {
     Measurement result = result_;
-    if (seconds_ > 0.0) {
-      result.frequency = static_cast<double>(result.revolutions) / seconds_;
-      result.sample_rate = static_cast<double>(samples_) / seconds_;
+    if (!durations_.empty()) {
+      std::vector<double> durations = durations_;
+      const auto median = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
+      std::ranges::nth_element(durations, median);
+      result.frequency = 1.0 / *median;
+      result.sample_rate =
+          static_cast<double>(samples_) / std::accumulate(durations.begin(), durations.end(), 0.0);
     }
     if (samples_ > 0) {
       result.return_share = static_cast<double>(returns_) / static_cast<double>(samples_);
@@ -55,7 +61,7 @@ class Recorder final : public DriverListener {
  private:
   std::size_t wanted_;
   Measurement result_;
-  double seconds_ = 0.0;
+  std::vector<double> durations_;  // [s] of the revolutions
   std::size_t samples_ = 0;
   std::size_t returns_ = 0;
 };

@@ -17,7 +17,7 @@ namespace quoin::sensor_bridge::rplidar {
 /// What a device did in a trial run.
 struct Measurement {
   std::size_t revolutions = 0;
-  double frequency = 0.0;        ///< [Hz] of the revolutions
+  double frequency = 0.0;        ///< [Hz] of the median revolution: a lost frame may join two
   double sample_rate = 0.0;      ///< [1/s]
   double return_share = 0.0;     ///< of samples with a range, 0..1
   std::optional<ScanPlan> plan;  ///< nothing when no device was found
