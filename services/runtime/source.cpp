@@ -70,6 +70,21 @@ std::optional<std::uint64_t> wait_for_begin(Service& service, const WriterBase& 
   }
 }
 
+/// What has been written must reach the readers before the writer goes. They may just be getting to
+/// know it when a short source is finished, which nobody wants to end at a certain time.
+bool all_is_acknowledged(const Service& service, WriterBase& writer) {
+  using std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds slice{100};
+  constexpr std::chrono::seconds longest_wait_when_finished{10};
+  const auto begin = steady_clock::now();
+  while (!writer.wait_for_acknowledgments(slice)) {
+    const auto limit =
+        service.stop.requested() ? longest_wait_for_acknowledgments : longest_wait_when_finished;
+    if (steady_clock::now() >= begin + limit) return false;
+  }
+  return true;
+}
+
 int publish_all(Service& service, const std::function<void(Source&)>& body) {
   Writer<msg::Scan> writer(service.participant,
                            deploy::output_topic(service.deployment, service.config),
@@ -110,8 +125,7 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
     next = source.next_sequence();
   }
   service.heartbeat.stopping();
-  // What has been written must reach the readers before the writer goes.
-  if (!writer.wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
+  if (!all_is_acknowledged(service, writer)) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
   service.succession.on_request(nullptr);

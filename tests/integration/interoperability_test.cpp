@@ -71,18 +71,25 @@ TEST_F(Interoperability, CycloneReadsEveryFieldOfEveryMessageOfTheChain) {
 )",
                                   "qos: lossless\n");
   runtime::Participant participant(deployment.participant("test"));
-  Recorder<msg::Scan> our_scans(participant, deployment, "front");
-  Recorder<msg::Segments> our_segments(participant, deployment, "walls");
-  Recorder<msg::Lines> our_lines(participant, deployment, "wctls");
-  Recorder<msg::Corners> our_corners(participant, deployment, "corners");
   const std::vector<std::string> services{"corners", "wctls", "walls", "front"};
   std::vector<std::string> arguments{std::to_string(deployment.deployment().domain),
                                      std::to_string(scans)};
   for (const std::string& service : services) arguments.push_back(deployment.topic(service));
   Process cyclone("cyclone_reader", arguments, deployment.directory().path());
-  // Each waits for the readers of this test and of the Cyclone program.
+  // Each waits for the readers of this test and of the Cyclone program. Those of the test come when
+  // the Cyclone program knows the writer, too: to it, what is written before is not for it.
   std::vector<Process> processes;
-  for (const std::string& service : services) processes.push_back(deployment.start(service, 2));
+  for (const std::string& service : services) {
+    processes.push_back(deployment.start(service, 2));
+    const std::string known = deployment.topic(service) + ": 1 writers";
+    ASSERT_TRUE(
+        tests::eventually([&] { return cyclone.errors().find(known) != std::string::npos; }, 30s))
+        << cyclone.errors();
+  }
+  Recorder<msg::Scan> our_scans(participant, deployment, "front");
+  Recorder<msg::Segments> our_segments(participant, deployment, "walls");
+  Recorder<msg::Lines> our_lines(participant, deployment, "wctls");
+  Recorder<msg::Corners> our_corners(participant, deployment, "corners");
 
   EXPECT_TRUE(tests::eventually([&] {
     return std::min({our_scans.poll(), our_segments.poll(), our_lines.poll(),

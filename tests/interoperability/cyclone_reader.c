@@ -3,6 +3,8 @@
 //
 // Reads topics of Quoin with Cyclone DDS and prints each message as a line of JSON:
 //   {"topic": "robot1/wctls/lines", "message": {...}}
+// and on the standard error output how many writers each topic has: "robot1/wctls/lines: 1
+// writers".
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,6 +62,13 @@ static const MessageKind* kind_of(const char* topic) {
   exit(2);
 }
 
+/// Tells when writers come and go: what a writer published before that is not for this reader.
+static void tell_writers(dds_entity_t reader, const dds_subscription_matched_status_t status,
+                         void* topic) {
+  (void)reader;
+  fprintf(stderr, "%s: %u writers\n", (const char*)topic, status.current_count);
+}
+
 static Subscription subscribe(dds_entity_t participant, dds_entity_t wait_set, const char* topic) {
   Subscription subscription = {topic, kind_of(topic), 0, 0};
   dds_qos_t* qos = quoin_qos(subscription.kind->qos);
@@ -67,7 +76,10 @@ static Subscription subscribe(dds_entity_t participant, dds_entity_t wait_set, c
   dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
   const dds_entity_t dds_topic =
       made(dds_create_topic(participant, subscription.kind->type, topic, NULL, NULL), topic);
-  subscription.reader = made(dds_create_reader(participant, dds_topic, qos, NULL), topic);
+  dds_listener_t* listener = dds_create_listener((void*)topic);
+  dds_lset_subscription_matched(listener, tell_writers);
+  subscription.reader = made(dds_create_reader(participant, dds_topic, qos, listener), topic);
+  dds_delete_listener(listener);
   dds_delete_qos(qos);
   const dds_entity_t unread =
       made(dds_create_readcondition(subscription.reader, DDS_ANY_STATE), "a read condition");
