@@ -6,6 +6,16 @@
 
 namespace quoin::runtime {
 
+namespace {
+
+constexpr std::size_t most_sources = 4;  // processes of one source that are remembered
+
+// [ns] A stage is not later than that. An instance of a source that has another clock may be, and
+// is heard again.
+constexpr std::int64_t latest_repetition = 10'000'000'000;
+
+}  // namespace
+
 // Results that a stage made between the last message and a new one, without the new one.
 struct ScanAccounting::Made {
   std::uint64_t count = 0;
@@ -71,6 +81,19 @@ bool ScanAccounting::continues_numbers(const msg::Header& header) const {
          header.sequence_number() - source.index() > previous_->sequence_number;
 }
 
+// Whether this is of a process of the source that was heard before the present one, and older than
+// what that one has sent: from a stage that is late.
+bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
+  const msg::StageTrace& source = header.trace()[0];
+  const std::int64_t late = previous_->stages[0].published - source.published();
+  const bool heard = std::any_of(earlier_.begin(), earlier_.end(), [&](const Previous& earlier) {
+    return earlier.sensor == header.sensor() &&
+           earlier.stages[0].incarnation == source.incarnation();
+  });
+  return heard && source.incarnation() != previous_->stages[0].incarnation && late > 0 &&
+         late < latest_repetition;
+}
+
 // The usual case: the next result of every stage.
 bool ScanAccounting::follows(const msg::Header& header) const {
   return header.sequence_number() == previous_->sequence_number + 1 &&
@@ -105,13 +128,18 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
     first_sequence_ = header.sequence_number();
   } else if (header.sensor() == previous_->sensor && !follows(header)) {
     const bool same_source = continues_numbers(header);
-    if (same_source && header.sequence_number() <= previous_->sequence_number) {
+    if ((same_source && header.sequence_number() <= previous_->sequence_number) ||
+        repeats_earlier_source(header)) {
       ++duplicates_;
       last_was_duplicate_ = true;
       return losses;
     }
     if (same_source || !took_over(header, 0)) losses = losses_before(header, same_source);
     for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
+    if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
+      if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
+      earlier_.push_back(*previous_);
+    }
   }
   ++received_;
   remember(header);

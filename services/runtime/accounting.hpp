@@ -28,6 +28,8 @@ struct Loss {
 /// over from it, scans missing between the last result of the one and the first of the other are
 /// put to its account. When another instance of a source takes over, which numbers scans of its
 /// own, nothing is counted as lost: of what the two saw nobody can say whether it was the same.
+/// What comes of an earlier process of the source when its successor has been heard is a
+/// repetition, as a stage that was late may make it.
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
@@ -35,7 +37,10 @@ class ScanAccounting {
   std::vector<Loss> receive(const msg::Header& header);
 
   /// From here to the next message nobody listens: nothing in between is lost.
-  void interrupt() { previous_.reset(); }
+  void interrupt() {
+    previous_.reset();
+    earlier_.clear();
+  }
 
   /// Losses behind the last message, when the source is known to have numbered `scans` scans.
   std::vector<Loss> finish(std::uint64_t scans);
@@ -68,6 +73,7 @@ class ScanAccounting {
   struct Made;
 
   [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
+  [[nodiscard]] bool repeats_earlier_source(const msg::Header& header) const;
   [[nodiscard]] bool took_over(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] bool follows(const msg::Header& header) const;
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
@@ -75,6 +81,7 @@ class ScanAccounting {
   void remember(const msg::Header& header);
 
   std::optional<Previous> previous_;
+  std::vector<Previous> earlier_;  // the last messages of the processes of the source before that
   std::optional<std::uint64_t> first_sequence_;
   std::uint64_t received_ = 0;
   std::uint64_t duplicates_ = 0;

@@ -250,9 +250,42 @@ TEST(ScanAccounting, TheScansOfAnotherSourceAreNotComparedWithThoseBefore) {
   other.trace()[2].index(101);
   EXPECT_THAT(accounting.receive(other), IsEmpty());
   EXPECT_EQ(accounting.received(), 2U);
-  other = by_instance(20, 1, 102);
+  other = by_instance(120, 1, 102);
+  other.trace()[0].published(6001);  // after the last of the other
   EXPECT_THAT(accounting.receive(other), IsEmpty()) << "the first one is heard again";
   EXPECT_EQ(accounting.received(), 3U);
+}
+
+TEST(ScanAccounting, ALateInstanceRepeatsNothingOfAnOldAndANewSource) {
+  Pipeline pipeline;
+  ScanAccounting accounting;
+  std::int64_t clock = 10;
+  const auto scan = [&](std::uint64_t started) {
+    msg::Header header = pipeline.scan();
+    header.trace()[0].incarnation(started);
+    header.trace()[0].published(++clock);
+    return header;
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_THAT(accounting.receive(scan(1)), IsEmpty());
+  std::vector<msg::Header> late;  // the strong instance of wctls stands still for a while
+  for (int i = 0; i < 2; ++i) late.push_back(scan(1));
+  pipeline.restart(0);
+  const auto started = static_cast<std::uint64_t>(++clock);
+  for (int i = 0; i < 5; ++i) {
+    late.push_back(scan(started));
+    msg::Header by_the_other = late.back();
+    by_the_other.trace()[2].incarnation(2);
+    accounting.receive(by_the_other);
+  }
+  EXPECT_EQ(accounting.received(), 15U);
+  EXPECT_EQ(accounting.lost(), 2U) << "the last two of the old source";
+  for (const msg::Header& header : late) {
+    EXPECT_THAT(accounting.receive(header), IsEmpty());
+    EXPECT_TRUE(accounting.last_was_duplicate());
+  }
+  EXPECT_THAT(accounting.receive(scan(started)), IsEmpty());
+  EXPECT_EQ(accounting.received(), 16U);
+  EXPECT_EQ(accounting.lost(), 2U);
 }
 
 TEST(ScanAccounting, DoubledScansAreCountedApart) {
