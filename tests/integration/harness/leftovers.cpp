@@ -16,7 +16,8 @@ std::set<pid_t> processes_naming(const std::string& text) {
     // Reading fails when the process ends meanwhile; an iterator over the buffer would throw then.
     std::ostringstream command;
     command << std::ifstream(entry.path() / "cmdline").rdbuf();
-    if (command.str().find(text) != std::string::npos) found.insert(static_cast<pid_t>(std::stol(name)));
+    if (command.str().find(text) != std::string::npos)
+      found.insert(static_cast<pid_t>(std::stol(name)));
   }
   return found;
 }
