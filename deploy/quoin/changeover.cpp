@@ -54,7 +54,6 @@ Changeover::Changeover(World world, const Deployment& running, const Deployment&
                        const Plan& plan, const std::vector<ProcessPlan>& plans,
                        milliseconds patience)
     : world_(std::move(world)),
-      dialogue_(world_.supervisor, world_.requester, world_.pump),
       running_(running),
       wanted_(wanted),
       plan_(plan),
@@ -153,11 +152,11 @@ void Changeover::wait_until_ready() {
         throw std::runtime_error(why_not_ready(newcomer));
       }
     }
-    if (!world_.pump()) throw std::runtime_error("the deployment is stopping");
+    if (!world_.dialogue.pump()) throw std::runtime_error("the deployment is stopping");
   }
   // No request is lost from the first answer on.
   for (const auto& [name, key] : predecessors_) {
-    if (!dialogue_.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
+    if (!world_.dialogue.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
                                "' does not answer; it is process " +
                                std::to_string(world_.supervisor.process_id(key)));
@@ -172,7 +171,7 @@ bool Changeover::ready(Newcomer& newcomer) {
   if (!publishes(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
   newcomer.incarnation = process->incarnation;
-  return dialogue_
+  return world_.dialogue
       .ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
       .has_value();
 }
@@ -196,7 +195,7 @@ std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
 void Changeover::swap_methods() {
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::swap) continue;
-    const Dialogue::Swap swap = dialogue_.swap(wanted_.service(change.service));
+    const Dialogue::Swap swap = world_.dialogue.swap(wanted_.service(change.service));
     if (!swap.refusal.empty()) {
       throw std::runtime_error("service '" + change.service + "' " + swap.refusal);
     }
@@ -206,7 +205,7 @@ void Changeover::swap_methods() {
 }
 
 void Changeover::roll_back() {
-  for (const std::string& name : swapped_) (void)dialogue_.swap(running_.service(name));
+  for (const std::string& name : swapped_) (void)world_.dialogue.swap(running_.service(name));
   first_scans_.clear();
   for (const Newcomer& newcomer : newcomers_) {
     const int process_id = world_.supervisor.process_id(newcomer.key);
@@ -223,7 +222,7 @@ void Changeover::roll_back() {
 void Changeover::end(int key) {
   world_.supervisor.retire(key, true);
   // Killed after five seconds.
-  dialogue_.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+  world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
@@ -249,16 +248,16 @@ void Changeover::take_over(const Newcomer& newcomer) {
   const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
   world_.supervisor.retire(predecessor->second, false);
   const auto handed_over =
-      dialogue_.ask(label(*newcomer.config), incarnation_of(predecessor->second),
-                    msg::ControlAction::CONTROL_HAND_OVER,
-                    same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
+      world_.dialogue.ask(label(*newcomer.config), incarnation_of(predecessor->second),
+                          msg::ControlAction::CONTROL_HAND_OVER,
+                          same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
   std::uint64_t scan = 0;  // everything that is held
   if (handed_over && handed_over->accepted()) {
     if (same_scans) scan = handed_over->first_sequence_number();
   } else {
     world_.supervisor.kill(predecessor->second);
-    dialogue_.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
-                         seconds(5));
+    world_.dialogue.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
+                               seconds(5));
   }
   first_scans_[label(*newcomer.config)] = same_scans ? scan : held.first_sequence_number();
   begin_with(newcomer, scan);
@@ -267,18 +266,18 @@ void Changeover::take_over(const Newcomer& newcomer) {
 msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (true) {
-    const auto reply = dialogue_.ask(label(*newcomer.config), newcomer.incarnation,
-                                     msg::ControlAction::CONTROL_HOLD);
+    const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
+                                           msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
     if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
-    if (!world_.pump()) return *reply;
+    if (!world_.dialogue.pump()) return *reply;
   }
 }
 
 void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
   world_.supervisor.adopt(newcomer.key, *newcomer.plan);
-  const auto reply = dialogue_.ask(label(*newcomer.config), newcomer.incarnation,
-                                   msg::ControlAction::CONTROL_TAKE_OVER, scan);
+  const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
+                                         msg::ControlAction::CONTROL_TAKE_OVER, scan);
   // Started again it works like any other.
   if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
 }
@@ -294,7 +293,7 @@ void Changeover::stop_removed() {
   for (const auto& [level, keys] : levels) {
     for (const int key : keys) world_.supervisor.retire(key, true);
     for (const int key : keys) {
-      dialogue_.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+      world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
     }
   }
 }

@@ -14,7 +14,6 @@
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/dialogue.hpp"
 #include "deploy/quoin/monitor.hpp"
-#include "deploy/quoin/requester.hpp"
 #include "deploy/supervision/supervisor.hpp"
 
 namespace quoin::deploy {
@@ -30,9 +29,7 @@ class Changeover {
   struct World {
     Supervisor& supervisor;
     Monitor& monitor;
-    Requester& requester;
-    /// As Dialogue takes it.
-    std::function<bool()> pump;
+    Dialogue& dialogue;
     /// The last line that a service has written; "" when there is none.
     std::function<std::string(const std::string& service)> last_line;
   };
@@ -78,7 +75,6 @@ class Changeover {
   void end(int key);
 
   World world_;
-  Dialogue dialogue_;
   const Deployment& running_;
   const Deployment& wanted_;
   const Plan& plan_;

@@ -71,8 +71,7 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
                              "on this host when nobody is writing it");
   }
   const Deployment wanted = parse_deployment(text, request.file);
-  const Deployment running =
-      Dialogue(world.supervisor, world.requester, world.pump).describe(deployment_);
+  const Deployment running = world.dialogue.describe(deployment_);
   const Plan plan = plan_changes(running, wanted, host_);
   outcome.steps = steps_of(plan);
   if (!plan.obstacles.empty()) throw std::runtime_error(joined(plan.obstacles));

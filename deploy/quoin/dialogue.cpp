@@ -105,7 +105,7 @@ Deployment Dialogue::describe(const Deployment& deployment) {
 bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (!condition()) {
-    if (Clock::now() >= deadline || !pump_()) return false;
+    if (Clock::now() >= deadline || !pump()) return false;
   }
   return true;
 }

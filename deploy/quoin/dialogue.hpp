@@ -18,8 +18,7 @@ namespace quoin::deploy {
 /// Requests to supervised processes whose answers are waited for while the supervision goes on.
 class Dialogue {
  public:
-  /// `pump` lets the processes be supervised for a moment; false when the deployment is to stop.
-  /// Both others must outlive the object.
+  /// `pump` is what pump() does. Both others must outlive the object.
   Dialogue(const Supervisor& supervisor, Requester& requester, std::function<bool()> pump);
 
   /// Nothing when the process does not answer. Incarnation 0 stands for any process of the service.
@@ -39,6 +38,8 @@ class Dialogue {
   /// parameters that were exchanged by request.
   [[nodiscard]] Deployment describe(const Deployment& deployment);
 
+  /// Lets the processes be supervised for a moment; false when the deployment is to stop.
+  bool pump() { return pump_(); }
   /// False after `patience`, or when the deployment is to stop.
   bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds patience);
 

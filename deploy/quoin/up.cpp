@@ -14,6 +14,7 @@
 #include "deploy/quoin/apply_requests.hpp"
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/composition.hpp"
+#include "deploy/quoin/dialogue.hpp"
 #include "deploy/quoin/display.hpp"
 #include "deploy/quoin/exclusive.hpp"
 #include "deploy/quoin/host.hpp"
@@ -112,15 +113,14 @@ class Run {
 
   ApplyOutcome apply(const ApplyRequest& request, const std::function<void(const Plan&)>& on_plan) {
     last_lines_.clear();
+    Dialogue dialogue(supervisor_, requester_, [this] {
+      apply_requests_.refuse();
+      return look(milliseconds(2));
+    });
     const Changeover::World world{
         .supervisor = supervisor_,
         .monitor = monitor_,
-        .requester = requester_,
-        .pump =
-            [this] {
-              apply_requests_.refuse();
-              return look(milliseconds(2));
-            },
+        .dialogue = dialogue,
         .last_line = [this](const std::string& name) { return last_lines_[name]; }};
     const ApplyOutcome outcome = composition_.apply(world, request, [&](const Plan& plan) {
       if (!request.dry_run) say("applying " + request.file.string());
