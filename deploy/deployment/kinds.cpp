@@ -8,7 +8,7 @@
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "sensor_bridge/replay/parameters.hpp"
-#include "sensor_bridge/rplidar/emulator_service/parameters.hpp"
+#include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
 #include "sensor_bridge/rplidar/parameters.hpp"
 #include "sensor_bridge/simulated/parameters.hpp"
 
@@ -33,7 +33,7 @@ std::string_view message_name(MessageType type) {
 const std::vector<KindInfo>& kinds() {
   using sensor_bridge::ReplayParameters;
   using sensor_bridge::SimulatedParameters;
-  using sensor_bridge::rplidar::EmulatorParameters;
+  using sensor_bridge::rplidar::EmulatorSettings;
   using sensor_bridge::rplidar::RplidarParameters;
   static const std::vector<KindInfo> all{
       {"simulated",
@@ -67,7 +67,7 @@ const std::vector<KindInfo>& kinds() {
        MessageType::none,
        "sensor",
        {},
-       describe_parameters<EmulatorParameters>()},
+       describe_parameters<EmulatorSettings>()},
       {"segmentation",
        "splits each scan into runs of points on one straight wall",
        "quoin-segmentation",

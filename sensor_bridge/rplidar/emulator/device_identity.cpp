@@ -85,9 +85,9 @@ std::optional<Bytes> value_of(const DeviceIdentity& identity, std::uint32_t key,
       return bytes;
     }
     case static_cast<std::uint32_t>(ConfigurationKey::smallest_speed):
-      return little_endian(smallest_speed);
+      return little_endian(slowest_motor);
     case static_cast<std::uint32_t>(ConfigurationKey::largest_speed):
-      return little_endian(largest_speed);
+      return little_endian(fastest_motor);
     case static_cast<std::uint32_t>(ConfigurationKey::mode_count):
       return little_endian(static_cast<std::uint16_t>(identity.modes.size()));
     case static_cast<std::uint32_t>(ConfigurationKey::typical_mode):

@@ -26,10 +26,6 @@ struct DeviceIdentity {
   std::array<std::uint8_t, 12> network_address{};  ///< as the client set it
 };
 
-/// Slowest and fastest that an S1 turns [rev/min].
-inline constexpr std::uint16_t smallest_speed = 480;
-inline constexpr std::uint16_t largest_speed = 900;
-
 /// An S1 with firmware 1.28. Throws std::invalid_argument for a serial number that is none.
 [[nodiscard]] DeviceIdentity s1_identity(const EmulatorSettings& settings);
 

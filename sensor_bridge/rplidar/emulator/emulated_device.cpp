@@ -22,23 +22,10 @@ constexpr std::uint8_t unheard_model = 0x0F;
 constexpr auto unheard_format = static_cast<SampleFormat>(0x99);
 
 EmulatorSettings checked(const EmulatorSettings& settings) {
-  if (settings.baud_rate < 1200 || settings.baud_rate > 10'000'000) {
-    throw std::invalid_argument("baud rate " + std::to_string(settings.baud_rate) +
-                                " is not between 1200 and 10000000");
-  }
-  if (!(settings.frequency * 60.0 >= smallest_speed &&
-        settings.frequency * 60.0 <= largest_speed)) {
-    throw std::invalid_argument("frequency " + std::to_string(settings.frequency) +
-                                " Hz is not between 8 and 15 Hz");
-  }
-  if (!(settings.spin_up_time >= 0.0 && settings.reset_time >= 0.0 &&
-        settings.range_stddev >= 0.0)) {
-    throw std::invalid_argument(
-        "the times of spin-up and reset and the standard deviation of ranges must not be negative");
-  }
-  if (!(std::abs(settings.clock_error) <= 0.01)) {
-    throw std::invalid_argument("clock error " + std::to_string(settings.clock_error) +
-                                " is not between -0.01 and 0.01");
+  try {
+    check_parameters(describe_parameters<EmulatorSettings>(), parameter_settings(settings));
+  } catch (const ParameterError& error) {
+    throw std::invalid_argument(error.parameter() + ": " + error.what());
   }
   return settings;
 }
@@ -297,7 +284,7 @@ void EmulatedDevice::set_speed(std::span<const std::uint8_t> payload, TimePoint 
     stop_scan(now);
     return;
   }
-  speed_ = std::clamp<unsigned>(speed, smallest_speed, largest_speed) / 60.0;
+  speed_ = std::clamp<unsigned>(speed, slowest_motor, fastest_motor) / 60.0;
   drive_motor(now);
 }
 

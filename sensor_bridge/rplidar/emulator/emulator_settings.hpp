@@ -4,8 +4,15 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
+
+#include "core/methods/parameter.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
+
+/// Slowest and fastest that an S1 turns [rev/min].
+inline constexpr std::uint16_t slowest_motor = 480;
+inline constexpr std::uint16_t fastest_motor = 900;
 
 /// What an emulated RPLIDAR S1 can be told. The defaults are a new S1 on a serial line.
 struct EmulatorSettings {
@@ -21,7 +28,7 @@ struct EmulatorSettings {
   std::int64_t port = 0;              ///< of TCP and UDP; 0 lets the kernel choose
   std::int64_t baud_rate = 256000;    ///< [bit/s] of the device's serial line
 
-  double frequency = 10.0;      ///< [Hz] revolutions until the client sets others; 8 to 15
+  double frequency = 10.0;      ///< [Hz] revolutions until the client sets others
   double spin_up_time = 1.0;    ///< [s] from rest to 10 Hz
   double reset_time = 2.0;      ///< [s] deaf after a reset and after being plugged in
   double range_min = 0.1;       ///< [m]
@@ -32,6 +39,43 @@ struct EmulatorSettings {
   std::string serial_number = "7E11EAF2C5E19BCFC2E19FF589C34509";  ///< 32 hexadecimal digits
   bool all_formats = false;  ///< offers scan modes for the formats that an S1 does not send, too
   std::string faults;        ///< misbehaviour to come, see parse_faults; "" for none
+
+  static constexpr auto fields() {
+    using P = EmulatorSettings;
+    return std::tuple{
+        field<P, std::string>(&P::environment, "environment",
+                              "name of a built-in world, or path of a world file (in a deployment: "
+                              "relative to its file)"),
+        field<P, double>(&P::speed, "speed", "m/s", 0.0, 100.0,
+                         "speed along the world's path, there and back"),
+        field<P, std::string>(&P::connection, "connection",
+                              "where clients find the device: pty, tcp or udp"),
+        field<P, std::string>(&P::link, "link", "symbolic link to the pseudo-terminal"),
+        field<P, std::string>(&P::address, "address", "address that tcp and udp listen on"),
+        field<P, std::int64_t>(&P::port, "port", "", 0.0, 65535.0,
+                               "port of tcp and udp; 0 lets the kernel choose"),
+        field<P, std::int64_t>(&P::baud_rate, "baud_rate", "", 1200.0, 10e6,
+                               "bits a second of the device's serial line"),
+        field<P, double>(&P::frequency, "frequency", "Hz", slowest_motor / 60.0,
+                         fastest_motor / 60.0, "revolutions a second until a client sets it"),
+        field<P, double>(&P::spin_up_time, "spin_up_time", "s", 0.0, 3600.0, "from rest to 10 Hz"),
+        field<P, double>(&P::reset_time, "reset_time", "s", 0.0, 3600.0,
+                         "deaf after a reset and after being plugged in"),
+        field<P, double>(&P::range_min, "range_min", "m", 0.0, 1000.0,
+                         "shortest range that is measured"),
+        field<P, double>(&P::range_max, "range_max", "m", 0.01, 1000.0,
+                         "longest range that is measured"),
+        field<P, double>(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "noise of each range"),
+        field<P, double>(&P::clock_error, "clock_error", "", -0.01, 0.01,
+                         "relative error of the device's clock; positive is slow"),
+        field<P, std::int64_t>(&P::seed, "seed", "", 0.0, 9007199254740992.0, "seed of the noise"),
+        field<P, std::string>(&P::serial_number, "serial_number", "32 hexadecimal digits"),
+        field<P, bool>(&P::all_formats, "all_formats",
+                       "scan modes for the formats that an S1 does not send, too"),
+        field<P, std::string>(&P::faults, "faults",
+                              "misbehaviour to come, such as 'unplug@20s+5s'; "
+                              "quoin-rplidar-emulator --help lists the kinds")};
+  }
 };
 
 }  // namespace quoin::sensor_bridge::rplidar

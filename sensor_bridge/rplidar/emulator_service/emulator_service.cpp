@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "sensor_bridge/rplidar/emulator/emulator.hpp"
-#include "sensor_bridge/rplidar/emulator_service/parameters.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -36,7 +35,7 @@ class Reporter {
 
 std::function<void(runtime::Activity&)> open_emulator(const deploy::ServiceConfig& config,
                                                       const std::filesystem::path& base_directory) {
-  auto settings = make_parameters<EmulatorParameters>(config.parameters);
+  auto settings = make_parameters<EmulatorSettings>(config.parameters);
   if (!settings.link.empty()) settings.link = base_directory / settings.link;
   const auto reporter = std::make_shared<Reporter>();
   const auto emulator = std::make_shared<Emulator>(
