@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "deploy/deployment/deployment.hpp"
 
@@ -12,7 +13,12 @@ namespace quoin::deploy {
 
 namespace {
 constexpr std::size_t longest_text = 4096;  // which every answer repeats
+
+bool is_cue(const msg::ControlRequest& request) {
+  return request.action() == msg::ControlAction::CONTROL_PROCEED ||
+         request.action() == msg::ControlAction::CONTROL_WITHDRAW;
 }
+}  // namespace
 
 ApplyRequest apply_request(const msg::ControlRequest& request) {
   ApplyRequest result;
@@ -36,30 +42,53 @@ ApplyRequests::ApplyRequests(runtime::Participant& participant, const std::strin
 bool ApplyRequests::next(msg::ControlRequest& request) {
   while (reader_.take(request)) {
     if (request.service() != name_ || request.requester().size() > longest_text) continue;
-    if (request.action() == msg::ControlAction::CONTROL_APPLY) return true;
+    if (request.action() == msg::ControlAction::CONTROL_APPLY || is_cue(request)) return true;
+    if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
+      refuse(request, "a supervisor can be asked to describe and to apply");
+      continue;
+    }
     msg::ControlReply answer;
-    answer.accepted(request.action() == msg::ControlAction::CONTROL_DESCRIBE);
-    answer.detail(answer.accepted() ? file_ : "a supervisor can be asked to describe and to apply");
+    answer.accepted(true);
+    answer.detail(file_);
     reply(request, answer);
   }
   return false;
 }
 
-std::optional<msg::ControlRequest> ApplyRequests::take(const std::string& file) {
-  file_ = file;
-  msg::ControlRequest request;
-  if (!next(request)) return std::nullopt;
-  return request;
+void ApplyRequests::refuse(const msg::ControlRequest& request, const std::string& why) {
+  msg::ControlReply answer;
+  answer.detail(why);
+  reply(request, answer);
 }
 
-void ApplyRequests::refuse() {
+std::optional<msg::ControlRequest> ApplyRequests::take(const std::string& file) {
+  file_ = file;
+  cue_.reset();
   msg::ControlRequest request;
   while (next(request)) {
-    msg::ControlReply answer;
-    answer.detail("another file is being applied; ask again when that has ended");
-    reply(request, answer);
+    if (!is_cue(request)) return request;
+    refuse(request, "nothing is being applied");
+  }
+  return std::nullopt;
+}
+
+void ApplyRequests::attend(const msg::ControlRequest* current) {
+  msg::ControlRequest request;
+  while (next(request)) {
+    const bool from_requester = current != nullptr && request.requester() == current->requester();
+    if (is_cue(request) && from_requester && !cue_) {
+      cue_ = request;
+    } else {
+      refuse(request, "another file is being applied; ask again when that has ended");
+    }
   }
 }
+
+bool ApplyRequests::withdrawn() const {
+  return cue_ && cue_->action() == msg::ControlAction::CONTROL_WITHDRAW;
+}
+
+std::optional<msg::ControlRequest> ApplyRequests::take_cue() { return std::exchange(cue_, {}); }
 
 void ApplyRequests::reply(const msg::ControlRequest& request, msg::ControlReply reply) {
   reply.service(request.service());

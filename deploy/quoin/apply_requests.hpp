@@ -24,18 +24,24 @@ class ApplyRequests {
 
   /// The next request to apply a file. Others are answered: to describe with `file`.
   [[nodiscard]] std::optional<msg::ControlRequest> take(const std::string& file);
-  /// Answers all that came: another one is being carried out.
-  void refuse();
+  /// Answers all that came: `current` is being carried out. Cues from its requester are kept.
+  void attend(const msg::ControlRequest* current);
+  /// Whether the cue that came is to withdraw.
+  [[nodiscard]] bool withdrawn() const;
+  /// The next cue for who is ready, and not taken yet.
+  [[nodiscard]] std::optional<msg::ControlRequest> take_cue();
   /// Fills in what every answer has.
   void reply(const msg::ControlRequest& request, msg::ControlReply reply);
 
  private:
   [[nodiscard]] bool next(msg::ControlRequest& request);
+  void refuse(const msg::ControlRequest& request, const std::string& why);
 
   runtime::Writer<msg::ControlReply> writer_;
   runtime::Reader<msg::ControlRequest> reader_;
   std::string name_;  // what they are addressed to
   std::string file_;
+  std::optional<msg::ControlRequest> cue_;
 };
 
 }  // namespace quoin::deploy

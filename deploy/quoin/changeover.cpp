@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "deploy/deployment/kinds.hpp"
+#include "deploy/quoin/cue.hpp"
 
 namespace quoin::deploy {
 
@@ -51,16 +52,17 @@ std::string in_seconds(milliseconds time) {
 }  // namespace
 
 Changeover::Changeover(World world, const Deployment& running, const Deployment& wanted,
-                       const Plan& plan, const std::vector<ProcessPlan>& plans,
-                       milliseconds patience)
+                       const Plan& plan, const Plan& elsewhere,
+                       const std::vector<ProcessPlan>& plans, milliseconds patience)
     : world_(std::move(world)),
       running_(running),
       wanted_(wanted),
       plan_(plan),
+      elsewhere_(elsewhere),
       plans_(plans),
       patience_(patience) {}
 
-void Changeover::carry_out() {
+void Changeover::prepare() {
   try {
     world_.monitor.add(wanted_);
     start_newcomers();
@@ -70,17 +72,42 @@ void Changeover::carry_out() {
     roll_back();
     throw;
   }
+}
+
+// From here on a process that is started again works as wanted.
+void Changeover::commit() {
+  if (committed_) return;
+  committed_ = true;
   for (const ProcessPlan& plan : plans_) {
     if (!plan_.replaces(plan.name)) world_.supervisor.replan(plan);
   }
+}
+
+void Changeover::change(const std::string& service) {
+  commit();
+  const auto change =
+      std::find_if(plan_.changes.begin(), plan_.changes.end(),
+                   [&](const Change& candidate) { return candidate.service == service; });
+  if (change == plan_.changes.end() || !done_.insert(service).second) return;
+  if (change->action == ChangeAction::stop) {
+    if (const auto key = world_.supervisor.key_of(service)) stop({*key});
+    return;
+  }
+  const auto newcomer =
+      std::find_if(newcomers_.begin(), newcomers_.end(),
+                   [&](const Newcomer& candidate) { return candidate.change == &*change; });
+  if (newcomer == newcomers_.end()) return;
+  change->action == ChangeAction::start ? begin(*newcomer) : take_over(*newcomer);
+}
+
+void Changeover::finish() {
+  commit();
   // Whoever reads is at work before the new source it reads begins.
   for (auto newcomer = newcomers_.rbegin(); newcomer != newcomers_.rend(); ++newcomer) {
-    if (newcomer->change->action == ChangeAction::start) begin(*newcomer);
+    if (newcomer->change->action == ChangeAction::start) change(newcomer->change->service);
   }
   // From the sources on, so that what takes over gets its input from what took over before.
-  for (const Newcomer& newcomer : newcomers_) {
-    if (newcomer.change->action == ChangeAction::replace) take_over(newcomer);
-  }
+  for (const Newcomer& newcomer : newcomers_) change(newcomer.change->service);
   stop_removed();
   world_.monitor.settle(wanted_);
 }
@@ -109,7 +136,7 @@ void Changeover::start(const Change& change) {
     // It has no scans to hand over, but maybe a device or a port of which there is only one.
     if (const auto old = predecessors_.find(change.service); old != predecessors_.end()) {
       stopped_beforehand_.push_back(world_.supervisor.plan(old->second));
-      end(old->second);
+      stop({old->second});
       predecessors_.erase(old);
     }
     newcomers_.push_back({&change, &config, &*plan, world_.supervisor.add(*plan)});
@@ -127,6 +154,7 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
   if (output_topic(running_, running_.service(label(service))) != topic) return 0;
   int count = 0;
   for (const ServiceConfig* reader : running_.readers_of(service.name)) {
+    if (elsewhere_.replaces(label(*reader)) || elsewhere_.stops(label(*reader))) ++count;
     if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
     const auto key = world_.supervisor.key_of(label(*reader));
     if (key && world_.supervisor.running(*key)) ++count;
@@ -153,6 +181,7 @@ void Changeover::wait_until_ready() {
       }
     }
     if (!world_.dialogue.pump()) throw std::runtime_error("the deployment is stopping");
+    if (world_.withdrawn()) throw std::runtime_error(withdrawn);
   }
   // No request is lost from the first answer on.
   for (const auto& [name, key] : predecessors_) {
@@ -209,7 +238,7 @@ void Changeover::roll_back() {
   first_scans_.clear();
   for (const Newcomer& newcomer : newcomers_) {
     const int process_id = world_.supervisor.process_id(newcomer.key);
-    end(newcomer.key);
+    stop({newcomer.key});
     world_.monitor.forget(label(*newcomer.config), process_id);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
@@ -217,12 +246,6 @@ void Changeover::roll_back() {
     world_.supervisor.adopt(key, plan);
   }
   world_.monitor.settle(running_);
-}
-
-void Changeover::end(int key) {
-  world_.supervisor.retire(key, true);
-  // Killed after five seconds.
-  world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
@@ -285,16 +308,19 @@ void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
 void Changeover::stop_removed() {
   std::map<int, std::vector<int>> levels;
   for (const Change& change : plan_.changes) {
-    if (change.action != ChangeAction::stop) continue;
+    if (change.action != ChangeAction::stop || done_.contains(change.service)) continue;
     if (const auto key = world_.supervisor.key_of(change.service)) {
       levels[world_.supervisor.plan(*key).level].push_back(*key);
     }
   }
-  for (const auto& [level, keys] : levels) {
-    for (const int key : keys) world_.supervisor.retire(key, true);
-    for (const int key : keys) {
-      world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
-    }
+  for (const auto& [level, keys] : levels) stop(keys);
+}
+
+void Changeover::stop(const std::vector<int>& keys) {
+  for (const int key : keys) world_.supervisor.retire(key, true);
+  for (const int key : keys) {
+    // Killed after five seconds.
+    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <idl/Control.h>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,23 +25,33 @@ namespace quoin::deploy {
 /// each of them is matched with its neighbours and all methods are exchanged do they begin to
 /// publish, the replaced ones hand over and what is not wanted any more stops. From there on the
 /// only way is forward: a process that fails is killed, and what takes its place is at work.
+/// Between the two one may wait for other hosts, and then do one change after the other.
 class Changeover {
  public:
   struct World {
     Supervisor& supervisor;
     Monitor& monitor;
     Dialogue& dialogue;
+    /// Whether not to wait any longer for what is new to be ready.
+    std::function<bool()> withdrawn;
     /// The last line that a service has written; "" when there is none.
     std::function<std::string(const std::string& service)> last_line;
   };
 
-  /// `running`: what the processes do now. `plans`: how to start the services of `wanted`, held
-  /// processes apart. All must outlive the object.
+  /// `running`: what the processes do now. `elsewhere`: what other hosts change meanwhile. `plans`:
+  /// how to start the services of `wanted`, held processes apart. All must outlive the object.
   Changeover(World world, const Deployment& running, const Deployment& wanted, const Plan& plan,
-             const std::vector<ProcessPlan>& plans, std::chrono::milliseconds patience);
+             const Plan& elsewhere, const std::vector<ProcessPlan>& plans,
+             std::chrono::milliseconds patience);
 
-  /// Throws std::runtime_error with the reason when it was rolled back.
-  void carry_out();
+  /// Up to where it can be rolled back. Throws std::runtime_error with the reason when it was.
+  void prepare();
+  /// Instead of what follows: leaves everything as it was.
+  void roll_back();
+  /// Carries out the change of one service. Nothing when there is none, or it has been done.
+  void change(const std::string& service);
+  /// All changes that are left, in an order in which no scan is lost.
+  void finish();
 
   /// The first scan that each changed service handled as wanted, where there is one.
   [[nodiscard]] const std::map<std::string, std::uint64_t>& first_scans() const {
@@ -65,25 +76,28 @@ class Changeover {
   [[nodiscard]] std::uint64_t incarnation_of(int key) const;
   [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
   void swap_methods();
-  void roll_back();
+  void commit();
   void begin(const Newcomer& newcomer);
   void take_over(const Newcomer& newcomer);
   [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
                                        std::chrono::milliseconds patience);
   void begin_with(const Newcomer& newcomer, std::uint64_t scan);
   void stop_removed();
-  void end(int key);
+  void stop(const std::vector<int>& keys);
 
   World world_;
   const Deployment& running_;
   const Deployment& wanted_;
   const Plan& plan_;
+  const Plan& elsewhere_;
   const std::vector<ProcessPlan>& plans_;
   std::chrono::milliseconds patience_;
   std::vector<Newcomer> newcomers_;
   std::map<std::string, int> predecessors_;      // keys of the processes that are replaced
   std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
   std::vector<std::string> swapped_;
+  bool committed_ = false;
+  std::set<std::string> done_;  // changes
   std::map<std::string, std::uint64_t> first_scans_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/quoin/composition.hpp"
 
+#include <set>
 #include <stdexcept>
 
 #include "deploy/apply/checksum.hpp"
@@ -20,6 +21,34 @@ std::vector<ProcessPlan> plans_of(const Deployment& deployment, const std::strin
     return find_kind(service.kind)->output == MessageType::corners ? 1 : 0;
   };
   return process_plans(deployment, host, observers, copy.path());
+}
+
+/// What the other hosts change.
+Plan plan_elsewhere(const Deployment& running, const Deployment& wanted, const std::string& host) {
+  Plan all;
+  std::set<std::string> others;
+  for (const Deployment* deployment : {&running, &wanted}) {
+    for (const std::string& other : hosts_of(*deployment)) others.insert(other);
+  }
+  others.erase(host);
+  for (const std::string& other : others) {
+    const Plan plan = plan_changes(running, wanted, other);
+    all.changes.insert(all.changes.end(), plan.changes.begin(), plan.changes.end());
+  }
+  return all;
+}
+
+/// Does one change after the other as it is told. Throws when it is told to withdraw.
+void follow(const NextCue& next_cue, Changeover& changeover) {
+  for (bool begun = false;; begun = true) {
+    const Cue cue = next_cue(begun);
+    if (cue.kind == Cue::Kind::finish) return;
+    if (cue.kind == Cue::Kind::withdraw) {
+      changeover.roll_back();
+      throw std::runtime_error(cue.text);
+    }
+    changeover.change(cue.text);
+  }
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -80,10 +109,13 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
 
   auto copy = std::make_unique<FrozenFile>(text);
   std::vector<ProcessPlan> plans = plans_of(wanted, host_, *copy);
-  Changeover changeover(world, running, wanted, plan, plans, request.patience);
+  const Plan elsewhere = request.next_cue ? plan_elsewhere(running, wanted, host_) : Plan{};
+  Changeover changeover(world, running, wanted, plan, elsewhere, plans, request.patience);
   outcome.rolled_back = true;
-  changeover.carry_out();
+  changeover.prepare();
+  if (request.next_cue) follow(request.next_cue, changeover);
   outcome.rolled_back = false;
+  changeover.finish();
   for (msg::ControlStep& step : outcome.steps) {
     const auto first = changeover.first_scans().find(step.service());
     if (first != changeover.first_scans().end()) step.first_sequence_number(first->second);

@@ -15,6 +15,7 @@
 #include "deploy/apply/frozen_file.hpp"
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/changeover.hpp"
+#include "deploy/quoin/cue.hpp"
 #include "deploy/supervision/supervisor.hpp"
 
 namespace quoin::deploy {
@@ -25,6 +26,7 @@ struct ApplyRequest {
   std::optional<std::uint64_t> checksum = std::nullopt;  ///< of the text that the requester means
   bool dry_run = false;
   std::chrono::milliseconds patience{10'000};  ///< for new processes to be ready
+  NextCue next_cue = nullptr;  ///< for who changes other hosts, too: asked once everything is ready
 };
 
 struct ApplyOutcome {

@@ -38,4 +38,10 @@ std::string host_to_run(const Deployment& deployment, const std::string& asked) 
                          host + "'; say which share to start with --host NAME"});
 }
 
+std::vector<std::string> hosts_to_change(const Deployment& deployment, const std::string& asked) {
+  const std::vector<std::string> hosts = hosts_of(deployment);
+  if (asked.empty() && !hosts.empty()) return hosts;
+  return {host_to_run(deployment, asked)};
+}
+
 }  // namespace quoin::deploy

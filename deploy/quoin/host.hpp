@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "deploy/deployment/deployment.hpp"
 
@@ -12,5 +13,10 @@ namespace quoin::deploy {
 /// like this machine; "" for a deployment that names no hosts. Throws DeploymentError, with the
 /// hosts that there are, when there is no such host.
 [[nodiscard]] std::string host_to_run(const Deployment& deployment, const std::string& asked);
+
+/// The hosts whose shares are to be changed: `asked`, as above, or when that is "" all; one "" for
+/// a deployment that names no hosts.
+[[nodiscard]] std::vector<std::string> hosts_to_change(const Deployment& deployment,
+                                                       const std::string& asked);
 
 }  // namespace quoin::deploy

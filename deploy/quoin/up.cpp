@@ -33,6 +33,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
+// On top of what new processes may take: until all hosts are ready, and while others do their
+// changes.
+constexpr milliseconds cue_patience{60'000};
+
 struct UpOptions {
   std::string file;
   std::string host;
@@ -111,16 +115,23 @@ class Run {
     return !supervisor_.stopping();
   }
 
-  ApplyOutcome apply(const ApplyRequest& request, const std::function<void(const Plan&)>& on_plan) {
+  ApplyOutcome apply(ApplyRequest request, const std::function<void(const Plan&)>& on_plan) {
     last_lines_.clear();
     Dialogue dialogue(supervisor_, requester_, [this] {
-      apply_requests_.refuse();
+      apply_requests_.attend(conducted_);
       return look(milliseconds(2));
     });
+    if (conducted_ != nullptr) {
+      request.next_cue = [this, &dialogue, cue = std::optional<msg::ControlRequest>(),
+                          patience = request.patience](bool begun) mutable {
+        return next_cue(dialogue, begun, patience, cue);
+      };
+    }
     const Changeover::World world{
         .supervisor = supervisor_,
         .monitor = monitor_,
         .dialogue = dialogue,
+        .withdrawn = [this] { return apply_requests_.withdrawn(); },
         .last_line = [this](const std::string& name) { return last_lines_[name]; }};
     const ApplyOutcome outcome = composition_.apply(world, request, [&](const Plan& plan) {
       if (!request.dry_run) say("applying " + request.file.string());
@@ -138,7 +149,27 @@ class Run {
     return outcome;
   }
 
+  /// Tells that everything is ready, or that the change of `last` has been done, and waits.
+  Cue next_cue(Dialogue& dialogue, bool begun, milliseconds patience,
+               std::optional<msg::ControlRequest>& last) {
+    msg::ControlReply reply;
+    reply.accepted(true);
+    reply.pending(!begun);
+    reply.ready(!begun);
+    apply_requests_.reply(begun ? *last : *conducted_, reply);
+    const bool came = dialogue.wait_until(
+        [&] { return (last = apply_requests_.take_cue()).has_value(); }, patience + cue_patience);
+    const bool withdraw = came && last->action() == msg::ControlAction::CONTROL_WITHDRAW;
+    if (begun && (!came || withdraw)) return {Cue::Kind::finish, ""};
+    if (supervisor_.stopping()) return {Cue::Kind::withdraw, "the deployment is stopping"};
+    if (!came) return {Cue::Kind::withdraw, "who asked for it did not tell to go on"};
+    if (withdraw) return {Cue::Kind::withdraw, withdrawn};
+    if (last->change().empty()) return {Cue::Kind::finish, ""};
+    return {Cue::Kind::change, last->change()};
+  }
+
   void answer(const msg::ControlRequest& request) {
+    conducted_ = request.in_concert() ? &request : nullptr;
     const ApplyOutcome outcome = apply(apply_request(request), [&](const Plan& plan) {
       if (request.dry_run()) return;
       msg::ControlReply reply;
@@ -147,6 +178,7 @@ class Run {
       reply.steps(steps_of(plan));
       apply_requests_.reply(request, reply);
     });
+    conducted_ = nullptr;
     msg::ControlReply reply;
     reply.accepted(outcome.accepted);
     reply.detail(outcome.detail);
@@ -271,7 +303,8 @@ class Run {
   std::optional<Clock::time_point> active_since_;
   std::optional<Clock::time_point> active_until_;
   std::set<int> strangers_;
-  std::map<std::string, std::string> last_lines_;  // of the services, since the last apply
+  const msg::ControlRequest* conducted_ = nullptr;  // what is applied with other hosts, if anything
+  std::map<std::string, std::string> last_lines_;   // of the services, since the last apply
   bool stop_asked_ = false;
   bool start_warned_ = false;
   int exit_code_ = exit_ok;

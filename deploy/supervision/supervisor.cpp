@@ -247,7 +247,8 @@ void Supervisor::advance() {
         callbacks_.event(child.plan.name, std::string("cannot be started: ") + error.what());
       }
     }
-    if (child.standing == Standing::retired) continue;
+    const bool failed_trial = child.standing == Standing::trial && child.end;
+    if (child.standing == Standing::retired || failed_trial) continue;
     has_source = has_source || child.plan.source;
     source_left =
         source_left || (child.plan.source && (child.figures.phase == ProcessPhase::running ||

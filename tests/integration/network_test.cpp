@@ -25,6 +25,7 @@ namespace quoin {
 namespace {
 
 using namespace std::chrono_literals;
+using namespace std::string_literals;
 using nlohmann::json;
 using tests::Hosts;
 using tests::Process;
@@ -145,7 +146,6 @@ class Robot {
 
   /// The process that `quoin up` of `host` has started for the discovery server there.
   [[nodiscard]] pid_t discovery_server(const std::string& host) const {
-    using std::string_literals::operator""s;
     for (const pid_t process : tests::processes_naming("quoin\0discovery\0"s)) {
       if (parent_of(process) == ups_.at(host)->pid()) return process;
     }
@@ -299,6 +299,99 @@ TEST_F(Network, ApplyChangesTheShareOfTheHostThatIsNamed) {
   EXPECT_EQ(robot.latest("lines").method(), "utls");
   EXPECT_EQ(robot.latest("lines").incarnation(), lines);
   EXPECT_EQ(actions_on("base"), (Actions{{"corners", "keep"}}));
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+}
+
+/// What `quoin apply FILE --json` of the host `lidar` has told.
+json apply(Robot& robot, const std::string& file, int exit_code) {
+  Process apply = robot.quoin("lidar", {"apply", file, "--json"});
+  EXPECT_EQ(apply.wait(60s), exit_code) << apply.errors() << robot.logs();
+  return json::parse(apply.output(), nullptr, false);
+}
+
+/// "host action service" of each step.
+std::vector<std::string> steps_of(const json& outcome) {
+  std::vector<std::string> steps;
+  for (const json& step : outcome["steps"]) {
+    steps.push_back(step["host"].get<std::string>() + " " + step["action"].get<std::string>() +
+                    " " + step["service"].get<std::string>());
+  }
+  return steps;
+}
+
+TEST_F(Network, ApplyChangesAllHostsTogetherAndLosesNothing) {
+  Robot robot("network: {interfaces: eth0}\nqos: lossless\n");
+  for (const char* host : {"lidar", "compute", "base"}) robot.up(host);
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  // Each replaced process reads what another host starts: no host could do its share alone.
+  const json outcome = apply(robot, robot.deployment().write("rewired.yaml", R"(
+  - {name: front, kind: simulated, host: lidar, parameters: {rate_hz: 20}}
+  - {name: fine, kind: segmentation, input: front, method: hierarchical, host: base}
+  - {name: lines, kind: line_fitting, input: fine, host: compute}
+  - {name: others, kind: line_fitting, input: fine, method: utls, host: lidar}
+  - {name: corners, kind: corner_estimation, input: others, host: base}
+)"),
+                             0);
+  EXPECT_THAT(steps_of(outcome),
+              testing::UnorderedElementsAre("lidar keep front", "lidar start others",
+                                            "compute replace lines", "compute stop walls",
+                                            "base start fine", "base replace corners"));
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+}
+
+// Another method on the host `compute` twice, and a fitter more.
+const char* const retuned_chain = R"(
+  - {name: front, kind: simulated, host: lidar, parameters: {rate_hz: 20}}
+  - {name: walls, kind: segmentation, input: front, method: hierarchical, host: compute}
+  - {name: lines, kind: line_fitting, input: walls, method: utls, host: compute}
+  - {name: beside, kind: line_fitting, input: walls, method: pca, host: compute}
+  - {name: corners, kind: corner_estimation, input: lines, host: base}
+)";
+
+TEST_F(Network, WhenOneHostCannotApplyNoHostChanges) {
+  Robot robot("network: {interfaces: eth0}\nqos: lossless\n");
+  for (const char* host : {"lidar", "compute"}) robot.up(host);
+  const std::string retuned = robot.deployment().write("retuned.yaml", retuned_chain);
+  Process early = robot.quoin("lidar", {"apply", retuned, "--wait", "2"});
+  EXPECT_EQ(early.wait(20s), 1);
+  EXPECT_THAT(early.errors(), testing::HasSubstr("on host base"));
+
+  robot.up("base");
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  const auto lines = robot.latest("lines").incarnation();
+  // The recording is not there, which only its process on the host `base` can find out.
+  const json outcome = apply(
+      robot,
+      robot.deployment().write(
+          "missing.yaml",
+          std::string(retuned_chain) +
+              "  - {name: rear, kind: replay, parameters: {path: nowhere.csv}, host: base}\n"),
+      1);
+  EXPECT_EQ(outcome["rolled_back"], true);
+  EXPECT_THAT(outcome["detail"].get<std::string>(), testing::HasSubstr("nowhere.csv"));
+  ASSERT_TRUE(robot.has_published("lines", robot.latest("lines").published() + 40));
+  EXPECT_EQ(robot.latest("lines").incarnation(), lines);
+  EXPECT_EQ(robot.latest("lines").method(), "wctls");
+  EXPECT_EQ(robot.latest("walls").method(), "iepf");
+  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+}
+
+TEST_F(Network, AnInterruptedApplyIsDoneEverywhereOrNowhere) {
+  Robot robot("network: {interfaces: eth0}\nqos: lossless\n");
+  for (const char* host : {"lidar", "compute", "base"}) robot.up(host);
+  ASSERT_TRUE(robot.has_published("corners", 10));
+  Process apply =
+      robot.quoin("lidar", {"apply", robot.deployment().write("retuned.yaml", retuned_chain)});
+  ASSERT_TRUE(
+      tests::eventually([] { return !tests::processes_naming("--service\0beside\0"s).empty(); }));
+  apply.signal(SIGINT);
+  const auto exit_code = apply.wait(60s);
+  ASSERT_TRUE(exit_code.has_value());
+  const bool done = *exit_code == 0;
+  ASSERT_TRUE(robot.has_published("lines", robot.latest("lines").published() + 40));
+  EXPECT_EQ(robot.latest("lines").method(), done ? "utls" : "wctls") << apply.errors();
+  EXPECT_EQ(robot.latest("walls").method(), done ? "hierarchical" : "iepf");
   EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
 }
 

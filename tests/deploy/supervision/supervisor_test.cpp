@@ -237,6 +237,18 @@ TEST_F(Supervision, AFailedTrialChangesNothing) {
   EXPECT_EQ(supervisor_->exit_code(), 0);
 }
 
+TEST_F(Supervision, AFailedTrialOfASourceDoesNotEndWhatHasNone) {
+  start({plan("walls", stage, 1)});
+  const int key = supervisor_->add(plan("front", "exit 2"));
+  ASSERT_TRUE(poll_until([&] { return supervisor_->end_of_trial(key).has_value(); }));
+  supervisor_->poll(0ms);
+  EXPECT_FALSE(supervisor_->stopping());
+  supervisor_->retire(key, true);
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
+  EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
 TEST_F(Supervision, TheFiguresOfARemovedServiceStay) {
   start({plan("front", stage), plan("walls", stage, 1)});
   ASSERT_TRUE(wait_for_line("walls: ready"));
