@@ -10,6 +10,7 @@
 #include "deploy/quoin/commands.hpp"
 #include "deploy/quoin/signals.hpp"
 #include "services/runtime/interfaces.hpp"
+#include "services/runtime/memory.hpp"
 #include "services/runtime/participant.hpp"
 
 namespace quoin::deploy {
@@ -42,9 +43,11 @@ int run(const std::string& file) {
     participants.emplace_back(config);
     std::cerr << "discovery server at " << text_of(network.servers[index]) << std::endl;
   }
+  runtime::MemoryTrim memory_trim;
   while (signals.take() == 0) {
     pollfd signal{signals.descriptor(), POLLIN, 0};
-    ::poll(&signal, 1, -1);
+    ::poll(&signal, 1, 5000);
+    memory_trim.tick();
   }
   return exit_ok;
 }

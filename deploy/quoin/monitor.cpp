@@ -142,6 +142,7 @@ void Monitor::listen() {
   while (!ending_) {
     wait_set_.wait(milliseconds(200));
     take_all();
+    memory_trim_.tick();
   }
 }
 

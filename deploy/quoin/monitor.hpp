@@ -18,6 +18,7 @@
 #include "deploy/deployment/deployment.hpp"
 #include "deploy/quoin/corner_watch.hpp"
 #include "deploy/report/figures.hpp"
+#include "services/runtime/memory.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 
@@ -102,6 +103,7 @@ class Monitor {
   runtime::Participant participant_;
   runtime::Reader<msg::ServiceStatus> status_reader_;
   runtime::WaitSet wait_set_;
+  runtime::MemoryTrim memory_trim_;
   mutable std::mutex mutex_;
   std::map<std::string, ServiceWatch> services_;  // by label
   std::vector<std::string> order_;                // of the services, removed ones last

@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <unistd.h>
 #include <utility>
 
@@ -21,14 +20,6 @@ namespace {
 
 constexpr std::chrono::seconds period{1};
 constexpr std::array<const char*, 3> cause_names{"link", "processing", "publishing"};
-
-std::uint64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t total = 0;
-  std::uint64_t resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
 
 double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
@@ -148,7 +139,7 @@ void Heartbeat::count_published(std::int64_t scan_published, std::int64_t receiv
 }
 
 msg::ServiceStatus Heartbeat::snapshot() {
-  const std::uint64_t resident = resident_bytes();
+  const std::uint64_t resident = resident_memory();
   const std::lock_guard lock(mutex_);
   changed_state_ = false;
   const std::int64_t now = now_ns();
@@ -196,6 +187,7 @@ void Heartbeat::run() {
       const msg::ServiceStatus status = snapshot();
       writer_.write(status);
       tell_supervisor(status);
+      memory_trim_.tick();
     }
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });

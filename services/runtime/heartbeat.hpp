@@ -12,6 +12,7 @@
 
 #include "core/evaluation/quantile_histogram.hpp"
 #include "deploy/deployment/deployment.hpp"
+#include "services/runtime/memory.hpp"
 #include "services/runtime/supervisor_link.hpp"
 #include "services/runtime/writer.hpp"
 
@@ -87,6 +88,7 @@ class Heartbeat {
   std::mutex write_mutex_;  // heartbeats leave in the order of their snapshots
   Writer<msg::ServiceStatus> writer_;
   SupervisorLink supervisor_;
+  MemoryTrim memory_trim_;
   std::string told_;          // state and detail that the supervisor knows
   std::int64_t told_at_ = 0;  // [ns since the Unix epoch]
   std::thread thread_;

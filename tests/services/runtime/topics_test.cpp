@@ -7,7 +7,6 @@
 #include <idl/Scan.h>
 #include <idl/Segments.h>
 #include <idl/Status.h>
-#include <malloc.h>
 #include <memory>
 #include <numeric>
 #include <thread>
@@ -21,6 +20,7 @@
 #include "services/runtime/reader.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
+#include "tests/services/runtime/heap.hpp"
 
 namespace quoin::runtime {
 namespace {
@@ -68,21 +68,8 @@ TEST(Topics, AScanArrivesAsItWasSent) {
   EXPECT_FALSE(reader.take(got));
 }
 
-/// [byte] What this process has allocated from the heap and not given back.
-std::size_t heap_in_use() {
-  const auto info = ::mallinfo2();
-  return info.uordblks + info.hblkhd;
-}
-
-/// Whether heap_in_use() sees allocations: a sanitizer has a heap of its own.
-bool heap_is_visible() {
-  const std::size_t before = heap_in_use();
-  const std::vector<char> memory(1U << 20U);
-  return heap_in_use() >= before + memory.size();
-}
-
 TEST(Topics, ScansThatWaitForTheirReaderTakeNoMoreMemoryThanTheyNeed) {
-  if (!heap_is_visible())
+  if (!tests::heap_is_visible())
     GTEST_SKIP() << "this process has another heap than that of the C library";
   Participant sender({test_domain(), "sender"});
   Participant receiver({test_domain(), "receiver"});
@@ -93,12 +80,12 @@ TEST(Topics, ScansThatWaitForTheirReaderTakeNoMoreMemoryThanTheyNeed) {
   corners.corners().resize(10);
   ASSERT_TRUE(writer.write(corners));
   ASSERT_TRUE(writer.wait_for_acknowledgments(10s));
-  const std::size_t before = heap_in_use();
+  const std::size_t before = tests::heap_in_use();
   constexpr std::size_t waiting = 30;
   for (std::size_t i = 0; i < waiting; ++i) ASSERT_TRUE(writer.write(corners));
   ASSERT_TRUE(writer.wait_for_acknowledgments(10s));
   // Of some 1.1 kB that one takes in the history of the reader; a hundred corners would be 66 kB.
-  EXPECT_LT(heap_in_use(), before + waiting * 8000U);
+  EXPECT_LT(tests::heap_in_use(), before + waiting * 8000U);
   std::size_t taken = 0;
   while (reader.take(corners)) ++taken;
   EXPECT_EQ(taken, waiting + 1);
