@@ -10,7 +10,10 @@ namespace quoin::runtime {
 
 namespace {
 constexpr std::uint64_t worth_it = 128U << 10U;  // [byte]
-}
+
+// [byte] The C library's own, which it raises to what has ever been allocated and freed at once.
+constexpr int threshold = 128 << 10;
+}  // namespace
 
 std::uint64_t resident_memory() {
   std::ifstream file("/proc/self/statm");
@@ -18,6 +21,11 @@ std::uint64_t resident_memory() {
   std::uint64_t resident = 0;
   file >> total >> resident;
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+MemoryTrim::MemoryTrim(Clock::duration period) : period_(period), next_(Clock::now() + period) {
+  ::mallopt(M_MMAP_THRESHOLD, threshold);
+  ::mallopt(M_TRIM_THRESHOLD, threshold);
 }
 
 void MemoryTrim::tick() {

@@ -16,8 +16,7 @@ class MemoryTrim {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit MemoryTrim(Clock::duration period = std::chrono::seconds(10))
-      : period_(period), next_(Clock::now() + period) {}
+  explicit MemoryTrim(Clock::duration period = std::chrono::seconds(10));
 
   /// To be called now and then. Looks once in a period; when the process has grown since it was
   /// last trimmed, it is trimmed again, which takes a fraction of a millisecond.
