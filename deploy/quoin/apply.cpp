@@ -167,7 +167,7 @@ Command add_apply(CLI::App& app) {
   const auto options = std::make_shared<ApplyOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
   line->add_option("--host", options->host,
-                   "Host whose share of the deployment to change; else all hosts, or none");
+                   "Change the share of this host alone; else all hosts change, or none");
   line->add_flag("--dry-run", options->dry_run, "Print the plan, change nothing");
   line->add_option("--wait", options->wait, "How long new processes may take to be ready [s]")
       ->capture_default_str()

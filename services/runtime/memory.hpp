@@ -16,6 +16,7 @@ class MemoryTrim {
  public:
   using Clock = std::chrono::steady_clock;
 
+  /// Large blocks and the ends of heaps are given back as soon as they are free from now on.
   explicit MemoryTrim(Clock::duration period = std::chrono::seconds(10));
 
   /// To be called now and then. Looks once in a period; when the process has grown since it was
