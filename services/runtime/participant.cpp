@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <stdexcept>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -22,11 +21,6 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
-
-// [byte] What a place of a history has at first; it grows with the samples that it holds. The
-// generated code would have it hold a hundred elements of every sequence, and 255 characters of
-// every string: 66 kB for the corners of a scan, of which a room needs 2.
-constexpr std::uint32_t smallest_sample = 512;
 
 // Participants of one process talk through the transport like all others: the short cut inside a
 // process never repeats a sample that a full lossless reader had to reject.
@@ -98,11 +92,6 @@ dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSup
   if (auto* known = participant->lookup_topicdescription(name)) {
     return dynamic_cast<dds::Topic*>(known);
   }
-  // With type propagation on, nested types crash Fast DDS 2.9's discovery server and Cyclone DDS
-  // refuses to match.
-  type->auto_fill_type_information(false);
-  type->auto_fill_type_object(false);
-  type->m_typeSize = smallest_sample;
   if (type.register_type(participant) != ReturnCode_t::RETCODE_OK) {
     throw std::runtime_error("cannot register DDS type " + type.get_type_name());
   }

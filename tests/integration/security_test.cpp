@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <idl/Control.h>
+#include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
 #include <memory>
@@ -145,6 +146,28 @@ TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
         << " of " << length;
   }
 }
+
+void expect_samples_of_any_length(const std::string& encrypt) {
+  const ClosedDeployment deployment(encrypt);
+  runtime::Participant wctls(deployment.participant("wctls"));
+  runtime::Participant corners(deployment.participant("corners"));
+  const std::string topic = deployment.topic("wctls");
+  runtime::Writer<msg::Lines> writer(wctls, topic, runtime::QosPreset::lossless);
+  runtime::Reader<msg::Lines> reader(corners, topic, runtime::QosPreset::lossless);
+  ASSERT_TRUE(writer.wait_for_readers(1, 30s));
+  msg::Lines sample;
+  sample.failures().resize(1);
+  for (std::size_t length = 0; length < 8; ++length) {
+    sample.failures()[0].reason(std::string(length, 'x'));  // the last of the sample
+    ASSERT_TRUE(writer.write(sample));
+    msg::Lines taken;
+    ASSERT_TRUE(tests::eventually([&] { return reader.take(taken); })) << length;
+    EXPECT_EQ(taken.failures().at(0).reason(), sample.failures()[0].reason());
+  }
+}
+
+TEST(Security, SignedSamplesArriveWhateverTheirLength) { expect_samples_of_any_length("false"); }
+TEST(Security, EncryptedSamplesArriveWhateverTheirLength) { expect_samples_of_any_length("true"); }
 
 TEST(Security, OnlyTheInvitedReadAndWrite) {
   const ClosedDeployment deployment;
