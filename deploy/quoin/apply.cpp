@@ -71,7 +71,7 @@ Outcome outcome_of(const std::vector<HostOutcome>& hosts) {
   return outcome;
 }
 
-void print_json(const std::vector<HostOutcome>& hosts, bool dry_run) {
+void print_json(const std::vector<HostOutcome>& hosts, const Outcome& outcome, bool dry_run) {
   Json steps = Json::array();
   for (const auto& [host, reply, answered] : hosts) {
     for (const msg::ControlStep& step : reply.steps()) {
@@ -82,7 +82,6 @@ void print_json(const std::vector<HostOutcome>& hosts, bool dry_run) {
                        {"first_sequence_number", step.first_sequence_number()}});
     }
   }
-  const Outcome outcome = outcome_of(hosts);
   const Json object{{"accepted", outcome.accepted},
                     {"rolled_back", outcome.rolled_back},
                     {"detail", outcome.detail},
@@ -91,14 +90,13 @@ void print_json(const std::vector<HostOutcome>& hosts, bool dry_run) {
   std::cout << object.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-void print(const std::vector<HostOutcome>& hosts, bool dry_run) {
+void print(const std::vector<HostOutcome>& hosts, const Outcome& outcome, bool dry_run) {
   for (const HostOutcome& host : hosts) {
     if (!host.reply.accepted()) continue;
     for (const msg::ControlStep& step : host.reply.steps()) {
       std::cout << (host.host.empty() ? "" : host.host + ": ") << to_text(step) << '\n';
     }
   }
-  const Outcome outcome = outcome_of(hosts);
   if (outcome.accepted) return;
   const bool changed = !dry_run && std::any_of(hosts.begin(), hosts.end(), [](const auto& host) {
     return host.reply.accepted() || !host.answered;
@@ -153,8 +151,8 @@ int run(const ApplyOptions& options) {
   request.dry_run(options.dry_run);
   request.wait(options.wait);
   const auto outcomes = apply_on(hosts, deployment, requester, request, interrupted);
-  options.json ? print_json(outcomes, options.dry_run) : print(outcomes, options.dry_run);
   const Outcome outcome = outcome_of(outcomes);
+  (options.json ? print_json : print)(outcomes, outcome, options.dry_run);
   if (outcome.accepted) return exit_ok;
   return outcome.rolled_back || !outcome.answered ? exit_failure : exit_configuration;
 }

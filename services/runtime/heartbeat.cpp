@@ -187,8 +187,8 @@ void Heartbeat::run() {
       const msg::ServiceStatus status = snapshot();
       writer_.write(status);
       tell_supervisor(status);
-      memory_trim_.tick();
     }
+    memory_trim_.tick();
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, period, [this] { return ending_ || changed_state_; });
   }

@@ -117,15 +117,26 @@ std::unique_ptr<Intruder> expired_intruder(const ClosedDeployment& deployment,
   throw std::runtime_error("no participant starts in time");
 }
 
+/// A lossless topic from the identity of one service to that of another.
+template <class T>
+struct LosslessLink {
+  LosslessLink(const ClosedDeployment& deployment, const std::string& from, const std::string& to)
+      : sender(deployment.participant(from)),
+        receiver(deployment.participant(to)),
+        writer(sender, deployment.topic(from), runtime::QosPreset::lossless),
+        reader(receiver, deployment.topic(from), runtime::QosPreset::lossless) {}
+
+  runtime::Participant sender;
+  runtime::Participant receiver;
+  runtime::Writer<T> writer;
+  runtime::Reader<T> reader;
+};
+
 // Samples that are sent again share messages, filled up to the last bytes that there are.
 TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
   const ClosedDeployment deployment;
-  runtime::Participant walls(deployment.participant("walls"));
-  runtime::Participant wctls(deployment.participant("wctls"));
-  const std::string topic = deployment.topic("walls");
-  runtime::Writer<msg::Segments> writer(walls, topic, runtime::QosPreset::lossless);
-  runtime::Reader<msg::Segments> reader(wctls, topic, runtime::QosPreset::lossless);
-  ASSERT_TRUE(writer.wait_for_readers(1, 30s));
+  LosslessLink<msg::Segments> link(deployment, "walls", "wctls");
+  ASSERT_TRUE(link.writer.wait_for_readers(1, 30s));
 
   // More than the reader keeps: it has to ask for the others again.
   constexpr std::size_t samples = 450;
@@ -136,11 +147,11 @@ TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
     for (std::size_t i = 0; i < samples; ++i) {
       sample.header().sequence_number(i);
       // A full history is told at once when an acknowledgement comes that makes no room.
-      ASSERT_TRUE(tests::eventually([&] { return writer.write(sample); })) << i;
+      ASSERT_TRUE(tests::eventually([&] { return link.writer.write(sample); })) << i;
     }
     std::size_t expected = 0;
     ASSERT_TRUE(tests::eventually([&] {
-      while (reader.take(taken)) EXPECT_EQ(taken.header().sequence_number(), expected++);
+      while (link.reader.take(taken)) EXPECT_EQ(taken.header().sequence_number(), expected++);
       return expected == samples;
     })) << expected
         << " of " << length;
@@ -149,19 +160,15 @@ TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
 
 void expect_samples_of_any_length(const std::string& encrypt) {
   const ClosedDeployment deployment(encrypt);
-  runtime::Participant wctls(deployment.participant("wctls"));
-  runtime::Participant corners(deployment.participant("corners"));
-  const std::string topic = deployment.topic("wctls");
-  runtime::Writer<msg::Lines> writer(wctls, topic, runtime::QosPreset::lossless);
-  runtime::Reader<msg::Lines> reader(corners, topic, runtime::QosPreset::lossless);
-  ASSERT_TRUE(writer.wait_for_readers(1, 30s));
+  LosslessLink<msg::Lines> link(deployment, "wctls", "corners");
+  ASSERT_TRUE(link.writer.wait_for_readers(1, 30s));
   msg::Lines sample;
   sample.failures().resize(1);
   for (std::size_t length = 0; length < 8; ++length) {
     sample.failures()[0].reason(std::string(length, 'x'));  // the last of the sample
-    ASSERT_TRUE(writer.write(sample));
+    ASSERT_TRUE(link.writer.write(sample));
     msg::Lines taken;
-    ASSERT_TRUE(tests::eventually([&] { return reader.take(taken); })) << length;
+    ASSERT_TRUE(tests::eventually([&] { return link.reader.take(taken); })) << length;
     EXPECT_EQ(taken.failures().at(0).reason(), sample.failures()[0].reason());
   }
 }
