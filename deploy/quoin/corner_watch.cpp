@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/quoin/corner_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "services/runtime/qos.hpp"
@@ -21,7 +22,7 @@ bool CornerWatch::take_all(const std::function<void(const msg::Header&)>& on_sca
     const std::uint64_t received = accounting_.received();
     accounting_.receive(message_.header());
     if (accounting_.received() == received) continue;  // the same scan again
-    if (received == 0 && !joined_late_) lost_at_start_ = message_.header().sequence_number();
+    if (received == 0 && !joined_late_) first_number_ = message_.header().sequence_number();
     add(message_);
     on_scan(message_.header());
   }
@@ -40,23 +41,35 @@ void CornerWatch::add(const msg::Corners& message) {
 
 void CornerWatch::interrupt() {
   accounting_.interrupt();
-  joined_late_ = true;
+  if (heard_nothing()) joined_late_ = true;
 }
 
-void CornerWatch::end(std::uint64_t scans) {
-  if (!heard_nothing()) {
-    accounting_.finish(scans);
-  } else if (!joined_late_) {
-    lost_at_start_ = scans;
+std::uint64_t CornerWatch::lost_at_start(const std::vector<SourceInstance>& instances) const {
+  if (joined_late_ || (heard_nothing() && !ended_)) return 0;
+  std::uint64_t lost = first_number_;
+  for (const SourceInstance& instance : instances) {
+    if (heard_nothing()) {
+      if (instance.service == source_) lost = std::max(lost, instance.ledger.scans());
+    } else if (instance.ledger.knows(sources().front().incarnation)) {
+      lost += instance.ledger.scans_before(sources().front().incarnation);
+    }
   }
+  return lost;
 }
 
-CornerFigures CornerWatch::figures() const {
+CornerFigures CornerWatch::figures(const std::vector<SourceInstance>& instances) const {
   CornerFigures figures;
   figures.name = name_;
   figures.scans_delivered = accounting_.received();
   figures.lost_by_stage = accounting_.lost_by_stage();
-  if (lost_at_start_ > 0) figures.lost_by_stage["start"] += lost_at_start_;
+  std::uint64_t unsettled = 0;
+  for (const SourceInstance& instance : instances) {
+    unsettled += instance.ledger.unsettled(sources(), ended_);
+  }
+  if (unsettled > 0) figures.lost_by_stage["end"] += unsettled;
+  if (const std::uint64_t lost = lost_at_start(instances); lost > 0) {
+    figures.lost_by_stage["start"] += lost;
+  }
   for (const auto& [stage, count] : figures.lost_by_stage) figures.scans_lost += count;
   figures.scans_expected = figures.scans_delivered + figures.scans_lost;
   if (figures.scans_delivered > 0) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <idl/Corners.h>
 #include <string>
+#include <vector>
 
 #include "core/evaluation/quantile_histogram.hpp"
 #include "deploy/deployment/deployment.hpp"
@@ -13,8 +14,16 @@
 #include "services/runtime/accounting.hpp"
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
+#include "services/runtime/source_ledger.hpp"
 
 namespace quoin::deploy {
+
+/// An instance of a source.
+struct SourceInstance {
+  std::string label;
+  std::string service;
+  runtime::SourceLedger ledger;  ///< has learned from all watches
+};
 
 /// Takes what one corner service publishes, and accounts for each scan of its source.
 class CornerWatch {
@@ -39,13 +48,18 @@ class CornerWatch {
   /// It is no part of the deployment. Should it come back, what happens meanwhile is for nobody.
   void interrupt();
   [[nodiscard]] bool heard_nothing() const { return accounting_.received() == 0; }
-  /// The source has numbered this many scans and ended.
-  void end(std::uint64_t scans);
+  /// The source has ended: what has not come will not.
+  void end() { ended_ = true; }
+  [[nodiscard]] const std::vector<runtime::SourceAccount>& sources() const {
+    return accounting_.sources();
+  }
 
-  [[nodiscard]] CornerFigures figures() const;
+  /// `instances`: of all sources.
+  [[nodiscard]] CornerFigures figures(const std::vector<SourceInstance>& instances) const;
 
  private:
   void add(const msg::Corners& message);
+  [[nodiscard]] std::uint64_t lost_at_start(const std::vector<SourceInstance>& instances) const;
 
   std::string name_;
   std::string source_;
@@ -53,7 +67,8 @@ class CornerWatch {
   runtime::Reader<msg::Corners> reader_;
   runtime::ScanAccounting accounting_;
   bool joined_late_;
-  std::uint64_t lost_at_start_ = 0;
+  bool ended_ = false;
+  std::uint64_t first_number_ = 0;  // of the first scan that came, or was for us
   std::uint64_t corners_ = 0;
   QuantileHistogram sigma_;
   QuantileHistogram ellipse_area_;

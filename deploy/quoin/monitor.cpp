@@ -236,16 +236,27 @@ int Monitor::newest_process(const std::string& name) const {
   return processes.empty() ? 0 : processes.rbegin()->second.process_id;
 }
 
-std::uint64_t Monitor::scans_published(const std::string& source) const {
-  std::uint64_t most = 0;
+// Of all hosts.
+std::vector<SourceInstance> Monitor::source_instances() const {
+  std::vector<SourceInstance> instances;
+  std::vector<const std::vector<runtime::SourceAccount>*> accounts;
+  for (const auto& watch : corners_) accounts.push_back(&watch->sources());
   for (const auto& [label, watch] : services_) {
-    if (watch.name == source) most = std::max(most, watch.incarnations.total().published);
+    if (!watch.source) continue;
+    SourceInstance& instance = instances.emplace_back(SourceInstance{label, watch.name, {}});
+    for (const auto& [incarnation, process] : watch.incarnations.processes()) {
+      instance.ledger.add(incarnation, {process.first_number, process.published, process.lost});
+    }
+    instance.ledger.learn(accounts);
   }
-  return most;
+  return instances;
 }
 
 DeploymentFigures Monitor::figures() const {
   const std::lock_guard lock(mutex_);
+  const std::vector<SourceInstance> sources = source_instances();
+  std::map<std::string, std::uint64_t> published;  // by sources
+  for (const SourceInstance& source : sources) published[source.label] = source.ledger.published();
   DeploymentFigures figures;
   figures.deployment = file_;
   for (const std::string& name : order_) {
@@ -253,6 +264,7 @@ DeploymentFigures Monitor::figures() const {
     if (!watch.settled) continue;
     ServiceFigures entry{name, watch.kind, watch.method, watch.incarnations.total(), 0};
     if (watch.source) {
+      entry.report.published = published[name];
       figures.scans_published += entry.report.published;
     } else {
       // What a killed process received after its last heartbeat shows in its results alone.
@@ -264,7 +276,7 @@ DeploymentFigures Monitor::figures() const {
     const bool was_there = std::any_of(services_.begin(), services_.end(), [&](const auto& entry) {
       return entry.second.name == watch->name();
     });
-    if (was_there) figures.corners.push_back(watch->figures());
+    if (was_there) figures.corners.push_back(watch->figures(sources));
   }
   return figures;
 }
@@ -292,14 +304,11 @@ void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
   for (const auto& watch : corners_) {
     if (!is_present(watch->name())) continue;
-    if (watch->heard_nothing()) {
-      watch->end(scans_published(watch->source()));
-      continue;
-    }
-    const ServiceWatch* source = writer_of(watch->source_trace());
+    const ServiceWatch* source =
+        watch->heard_nothing() ? nullptr : writer_of(watch->source_trace());
     // A source on another host that goes on without us: its further scans are no loss.
-    if (source == nullptr || (!source->here && !ended(*source))) continue;
-    watch->end(source->incarnations.numbered_by_newest());
+    if (source != nullptr && !source->here && !ended(*source)) continue;
+    watch->end();
   }
 }
 

@@ -96,7 +96,7 @@ class Monitor {
   [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
   [[nodiscard]] static bool ended(const ServiceWatch& watch);
   [[nodiscard]] bool is_present(const std::string& name) const;
-  [[nodiscard]] std::uint64_t scans_published(const std::string& source) const;
+  [[nodiscard]] std::vector<SourceInstance> source_instances() const;
 
   std::string file_;
   std::string host_;

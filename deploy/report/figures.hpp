@@ -45,13 +45,10 @@ class Incarnations {
   /// Takes back what is known of a process that never did anything.
   void forget(std::uint64_t incarnation) { reports_.erase(incarnation); }
   [[nodiscard]] ServiceReport total() const;
-  /// Scans of a source up to now by the numbers of its newest process, which may have taken over
-  /// from another one: published, or lost in publishing.
-  [[nodiscard]] std::uint64_t numbered_by_newest() const;
+  /// The newest report of each process, with what is known from elsewhere; by incarnation.
+  [[nodiscard]] std::map<std::uint64_t, ServiceReport> processes() const;
 
  private:
-  [[nodiscard]] std::uint64_t published_by(std::uint64_t incarnation) const;
-
   std::map<std::uint64_t, ServiceReport> reports_;
   std::map<std::uint64_t, std::uint64_t> published_at_least_;
 };

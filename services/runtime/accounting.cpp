@@ -14,7 +14,23 @@ constexpr std::size_t most_sources = 4;  // processes of one source that are rem
 // is heard again.
 constexpr std::int64_t latest_repetition = 10'000'000'000;
 
+// Of a process of the source; null when nothing was heard of it.
+template <class Accounts>
+auto* find_account(Accounts& accounts, std::uint64_t incarnation) {
+  const auto account = std::find_if(accounts.rbegin(), accounts.rend(), [&](const auto& known) {
+    return known.incarnation == incarnation;
+  });
+  return account == accounts.rend() ? nullptr : &*account;
+}
+
 }  // namespace
+
+// How a message stands to the one before.
+enum class ScanAccounting::Change {
+  begin,    // nothing is to be said of the scans in between
+  restart,  // a process of the source that began with its own numbers
+  go_on,    // the same numbers
+};
 
 // Results that a stage made between the last message and a new one, without the new one.
 struct ScanAccounting::Made {
@@ -56,7 +72,7 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
   // What took the place of another stage may have made more, but not of these scans.
   std::uint64_t given = header.sequence_number() - first;
   for (Made& stage : made) {
-    if (stage.restarted) stage.count = std::min(stage.count, given);
+    if (stage.restarted || same_source) stage.count = std::min(stage.count, given);
     given = stage.count;
   }
   const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
@@ -81,17 +97,16 @@ bool ScanAccounting::continues_numbers(const msg::Header& header) const {
          header.sequence_number() - source.index() > previous_->sequence_number;
 }
 
-// Whether this is of a process of the source that was heard before the present one, and older than
-// what that one has sent: from a stage that is late.
+// Whether this is of a process of the source that was heard before the present one, and either
+// settled or older than what that one has sent: from a stage that is late.
 bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
   const msg::StageTrace& source = header.trace()[0];
+  if (source.incarnation() == previous_->stages[0].incarnation) return false;
+  const SourceAccount* const account = find_account(sources_, source.incarnation());
+  if (account == nullptr) return false;
   const std::int64_t late = previous_->stages[0].published - source.published();
-  const bool heard = std::any_of(earlier_.begin(), earlier_.end(), [&](const Previous& earlier) {
-    return earlier.sensor == header.sensor() &&
-           earlier.stages[0].incarnation == source.incarnation();
-  });
-  return heard && source.incarnation() != previous_->stages[0].incarnation && late > 0 &&
-         late < latest_repetition;
+  return account->handed_over || source.index() < account->settled ||
+         (late > 0 && late < latest_repetition);
 }
 
 // The usual case: the next result of every stage.
@@ -120,38 +135,78 @@ void ScanAccounting::remember(const msg::Header& header) {
   }
 }
 
+// When a late message of an earlier process came in between: where the present one stood before.
+void ScanAccounting::return_to(const msg::Header& header) {
+  const msg::StageTrace& source = header.trace()[0];
+  if (source.incarnation() == previous_->stages[0].incarnation || took_over(header, 0)) return;
+  for (Previous& earlier : earlier_) {
+    if (earlier.sensor == header.sensor() &&
+        earlier.stages[0].incarnation == source.incarnation()) {
+      std::swap(earlier, *previous_);
+      return;
+    }
+  }
+}
+
+void ScanAccounting::settle(const msg::Header& header, Change change,
+                            const std::vector<Loss>& losses) {
+  const msg::StageTrace& source = header.trace()[0];
+  SourceAccount* const known = find_account(sources_, source.incarnation());
+  const std::uint64_t settled = source.index() + 1;
+  const std::uint64_t offset = header.sequence_number() - source.index();
+  if (known != nullptr) {
+    known->settled = std::max(known->settled, settled);
+    known->offset = offset;
+    return;
+  }
+  if (change != Change::begin) {
+    SourceAccount& before = *find_account(sources_, previous_->stages[0].incarnation);
+    before.handed_over = change == Change::go_on;
+    std::uint64_t lost = 0;
+    for (const Loss& loss : losses) lost += loss.count;
+    if (!before.handed_over && lost > header.sequence_number()) {
+      before.settled += lost - header.sequence_number();
+    }
+  }
+  sources_.push_back(
+      {source.service(), source.incarnation(), settled, offset, change == Change::begin, false});
+}
+
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   std::vector<Loss> losses;
   last_was_duplicate_ = false;
   if (header.trace().empty()) return losses;  // not from a stage of this project
+  Change change = Change::begin;
   if (!previous_) {
     first_sequence_ = header.sequence_number();
-  } else if (header.sensor() == previous_->sensor && !follows(header)) {
-    const bool same_source = continues_numbers(header);
-    if ((same_source && header.sequence_number() <= previous_->sequence_number) ||
-        repeats_earlier_source(header)) {
-      ++duplicates_;
-      last_was_duplicate_ = true;
-      return losses;
-    }
-    if (same_source || !took_over(header, 0)) losses = losses_before(header, same_source);
-    for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
-    if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
-      if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
-      earlier_.push_back(*previous_);
+  } else if (header.sensor() == previous_->sensor) {
+    if (follows(header)) {
+      change = Change::go_on;
+    } else {
+      return_to(header);
+      if (continues_numbers(header)) {
+        change = Change::go_on;
+      } else if (!took_over(header, 0)) {
+        change = Change::restart;
+      }
+      if ((change == Change::go_on && header.sequence_number() <= previous_->sequence_number) ||
+          repeats_earlier_source(header)) {
+        ++duplicates_;
+        last_was_duplicate_ = true;
+        return losses;
+      }
+      if (change != Change::begin) losses = losses_before(header, change == Change::go_on);
+      for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
+      if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
+        if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
+        earlier_.push_back(*previous_);
+      }
     }
   }
+  settle(header, change, losses);
   ++received_;
   remember(header);
   return losses;
-}
-
-std::vector<Loss> ScanAccounting::finish(std::uint64_t scans) {
-  if (!previous_ || previous_->sequence_number + 1 >= scans) return {};
-  const std::uint64_t first = previous_->sequence_number + 1;
-  const Loss loss{first, scans - 1, scans - first, "end"};
-  lost_by_stage_[loss.stage] += loss.count;
-  return {loss};
 }
 
 std::uint64_t ScanAccounting::lost() const {

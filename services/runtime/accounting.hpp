@@ -19,6 +19,19 @@ struct Loss {
   std::string stage;  ///< service name; the reader's own input link has the name "link"
 };
 
+/// What a reader has settled of one process of a source.
+struct SourceAccount {
+  std::string service;
+  std::uint64_t incarnation = 0;
+  /// What it published and was delivered, is lost, or was for nobody. Losses that are known to be
+  /// behind its last scan that arrived are among them, even when they are of processes after it of
+  /// which nothing ever arrived.
+  std::uint64_t settled = 0;
+  std::uint64_t offset = 0;  ///< of its numbers from its results, at the last one that arrived
+  bool begins = true;        ///< what earlier processes published was for nobody
+  bool handed_over = false;  ///< another one went on with its numbers: all is settled
+};
+
 /// Tells for each scan whether it arrived, and if not, where it was lost, from nothing but the
 /// headers of the messages that did arrive. Every stage numbers what it publishes
 /// (StageTrace.index), so the difference of two headers says how many results each stage made of
@@ -29,7 +42,9 @@ struct Loss {
 /// put to its account. When another instance of a source takes over, which numbers scans of its
 /// own, nothing is counted as lost: of what the two saw nobody can say whether it was the same.
 /// What comes of an earlier process of the source when its successor has been heard is a
-/// repetition, as a stage that was late may make it.
+/// repetition, as a stage that was late may make it. How many scans a process of the source
+/// published behind the last one that arrived is not to be told from headers; who knows it compares
+/// it with `sources` (`SourceLedger`).
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
@@ -42,9 +57,6 @@ class ScanAccounting {
     earlier_.clear();
   }
 
-  /// Losses behind the last message, when the source is known to have numbered `scans` scans.
-  std::vector<Loss> finish(std::uint64_t scans);
-
   /// Whether the last message was of a scan that had been received before, or was older.
   [[nodiscard]] bool last_was_duplicate() const { return last_was_duplicate_; }
   [[nodiscard]] std::uint64_t received() const { return received_; }
@@ -56,6 +68,8 @@ class ScanAccounting {
   }
   /// Number of the first scan received; nothing before that.
   [[nodiscard]] std::optional<std::uint64_t> first_sequence() const { return first_sequence_; }
+  /// The processes of sources in the order in which they were first heard.
+  [[nodiscard]] const std::vector<SourceAccount>& sources() const { return sources_; }
 
  private:
   // Where a stage stood at the last message.
@@ -71,6 +85,7 @@ class ScanAccounting {
     std::vector<StagePosition> stages;
   };
   struct Made;
+  enum class Change;
 
   [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
   [[nodiscard]] bool repeats_earlier_source(const msg::Header& header) const;
@@ -79,9 +94,12 @@ class ScanAccounting {
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;
   void remember(const msg::Header& header);
+  void return_to(const msg::Header& header);
+  void settle(const msg::Header& header, Change change, const std::vector<Loss>& losses);
 
   std::optional<Previous> previous_;
   std::vector<Previous> earlier_;  // the last messages of the processes of the source before that
+  std::vector<SourceAccount> sources_;
   std::optional<std::uint64_t> first_sequence_;
   std::uint64_t received_ = 0;
   std::uint64_t duplicates_ = 0;

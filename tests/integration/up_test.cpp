@@ -122,6 +122,46 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   EXPECT_GT(corners["lost_by_stage"]["walls"], 0);
 }
 
+TEST(Up, CountsTheScansOfASourceThatLivedAndDiedWhileAReaderHeardNothing) {
+  const TestDeployment deployment(
+      chain("rate_hz: 50") +
+      "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n"
+      "  - {name: more_corners, kind: corner_estimation, input: utls, method: adjacent}\n");
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE", "--json"});
+  const auto kill_newest = [&](const std::string& service, int signal) {
+    ASSERT_EQ(kill(static_cast<pid_t>(status.latest(service).pid()), signal), 0);
+  };
+  const auto has_published = [&](const std::string& service, std::uint64_t before,
+                                 std::uint64_t scans) {
+    return status.wait_for(
+        service, [&](const auto& s) { return s.incarnation() != before && s.published() > scans; });
+  };
+  ASSERT_TRUE(has_published("corners", 0, 50));
+  ASSERT_TRUE(has_published("more_corners", 0, 50));
+
+  kill_newest("more_corners", SIGSTOP);
+  for (int killed = 0; killed < 2; ++killed) {
+    const std::uint64_t front = status.latest("front").incarnation();
+    kill_newest("front", SIGKILL);
+    ASSERT_TRUE(has_published("front", front, 50));
+  }
+  // Nor do the stages that lived all the time, by the numbers of their results, tell what was made.
+  const std::uint64_t corners = status.latest("more_corners").incarnation();
+  for (const char* service : {"walls", "utls", "more_corners"}) kill_newest(service, SIGKILL);
+  ASSERT_TRUE(has_published("more_corners", corners, 50));
+
+  up.signal(SIGINT);
+  ASSERT_EQ(up.wait(30s), 0) << up.errors();
+  const json result = json::parse(up.output());
+  for (const char* name : {"corners", "more_corners"}) {
+    const json& seen = result["corners"][name];
+    EXPECT_GT(seen["scans_lost"], 0) << seen;
+    EXPECT_EQ(seen["scans_expected"], result["scans_published"]) << seen;
+  }
+}
+
 /// What `quoin doctor` finds, by check.
 std::multimap<std::string, std::string> findings(const TestDeployment& deployment) {
   Process doctor = deployment.quoin({"doctor", "FILE", "--json"});

@@ -302,17 +302,56 @@ TEST(ScanAccounting, DoubledScansAreCountedApart) {
   EXPECT_EQ(accounting.lost(), 0U);
 }
 
-TEST(ScanAccounting, FinishCountsWhatNeverCame) {
+TEST(ScanAccounting, AMessageThatIsVeryLateDoesNotLetItsSuccessorsCountTwice) {
+  ScanAccounting accounting;
+  const auto scan = [](std::uint64_t started, std::uint64_t number, std::int64_t published) {
+    msg::Header header = by_instance(number, 1, number);
+    header.trace()[0].incarnation(started);
+    header.trace()[0].published(published);
+    header.trace()[2].incarnation(started);
+    return header;
+  };
+  constexpr std::int64_t minute = 60'000'000'000;
+  accounting.receive(scan(1, 100, 10));
+  accounting.receive(scan(minute, 0, minute + 10));
+  for (std::uint64_t i = 1; i < 20; ++i) {
+    EXPECT_THAT(accounting.receive(scan(minute, i, minute + 10)), IsEmpty());
+  }
+  const std::uint64_t lost = accounting.lost();
+  EXPECT_THAT(accounting.receive(scan(1, 101, 11)), IsEmpty());  // an hour late, so to speak
+  accounting.receive(scan(minute, 23, minute + 10));
+  EXPECT_EQ(accounting.lost(), lost + 3);
+}
+
+TEST(ScanAccounting, KeepsAnAccountOfEachProcessOfTheSource) {
   Pipeline pipeline;
   ScanAccounting accounting;
+  for (int i = 0; i < 3; ++i) (void)pipeline.scan();
+  for (int i = 0; i < 5; ++i) accounting.receive(pipeline.scan());
+  for (int i = 0; i < 4; ++i) (void)pipeline.scan(2);  // of the old process, by walls
+  pipeline.restart(0);
+  (void)pipeline.scan(1);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.finish(1), IsEmpty());
-  const auto losses = accounting.finish(4);
-  ASSERT_EQ(losses.size(), 1U);
-  EXPECT_EQ(losses[0].count, 3U);
-  EXPECT_EQ(losses[0].first_sequence, 1U);
-  EXPECT_EQ(losses[0].last_sequence, 3U);
-  EXPECT_EQ(accounting.lost(), 3U);
+  ASSERT_EQ(accounting.sources().size(), 2U);
+  const SourceAccount& first = accounting.sources()[0];
+  EXPECT_EQ(first.service, "front");
+  EXPECT_EQ(first.incarnation, 1U);
+  EXPECT_TRUE(first.begins);
+  EXPECT_EQ(first.settled, 3U + 5U + 3U) << "one of the four may be of the new process";
+  const SourceAccount& second = accounting.sources()[1];
+  EXPECT_EQ(second.incarnation, 2U);
+  EXPECT_FALSE(second.begins);
+  EXPECT_EQ(second.settled, 2U);
+  EXPECT_FALSE(first.handed_over);
+  pipeline.take_over(0);
+  accounting.receive(pipeline.scan());
+  ASSERT_EQ(accounting.sources().size(), 3U);
+  EXPECT_TRUE(accounting.sources()[1].handed_over);
+  EXPECT_EQ(accounting.sources()[2].offset, 2U);
+  accounting.interrupt();
+  pipeline.restart(0);
+  accounting.receive(pipeline.scan());
+  EXPECT_TRUE(accounting.sources()[3].begins);
 }
 
 TEST(ScanAccounting, AHeaderWithoutTraceIsIgnored) {
