@@ -34,6 +34,7 @@
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace quoin;
 using namespace quoin::benchmarks;
@@ -82,7 +83,7 @@ struct ChainResult {
 /// The services, started from a deployment whose source this process plays.
 class ServiceChain {
  public:
-  ServiceChain(int domain, bool lossless, const tests::TemporaryDirectory& directory)
+  ServiceChain(int domain, bool lossless, const tests::TemporaryFolder& directory)
       : name_space_("bench_" + std::to_string(getpid()) + (lossless ? "_lossless" : "")),
         scans_(make_scans()),
         participant_({domain, "benchmark"}),
@@ -156,8 +157,7 @@ struct Sizes {
 
 class BareChain {
  public:
-  BareChain(int domain, bool lossless, const Sizes& sizes,
-            const tests::TemporaryDirectory& directory)
+  BareChain(int domain, bool lossless, const Sizes& sizes, const tests::TemporaryFolder& directory)
       : participant_(domain), size_(sizes.scan) {
     const std::string mode = lossless ? "lossless" : "keep_last";
     const std::string prefix = "bare_" + std::to_string(getpid()) + mode + "_";
@@ -399,7 +399,7 @@ int main(int argc, char** argv) {
   app.add_option("--flood", flood_messages, "Messages for the rate");
   CLI11_PARSE(app, argc, argv);
   try {
-    const tests::TemporaryDirectory directory;
+    const tests::TemporaryFolder directory;
     nlohmann::ordered_json figures;
     figures["processor"] = processor();
     if (!extraction_file.empty()) add_extraction(extraction_file, figures);

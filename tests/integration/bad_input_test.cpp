@@ -8,11 +8,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include "services/runtime/clock.hpp"
 #include "services/runtime/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin {
 namespace {
@@ -139,7 +139,7 @@ std::string replay_chain(const std::filesystem::path& file) {
 }
 
 TEST(BadInput, GoodScansBeforeAMalformedLineAreStillPublished) {
-  const tests::TemporaryDirectory folder;
+  const tests::TemporaryFolder folder;
   const auto log =
       folder.write("walls.log", carmen_line(180) + carmen_line(180) + "FLASER 180 1.0 2.0 oops\n");
   const TestDeployment deployment(replay_chain(log), "qos: lossless\n");
@@ -163,7 +163,7 @@ TEST(BadInput, AMissingScanFileStopsTheStart) {
 }
 
 TEST(BadInput, AMalformedDeploymentStartsNothing) {
-  const tests::TemporaryDirectory folder;
+  const tests::TemporaryFolder folder;
   const auto file =
       folder.write("broken.yaml", "version: 1\nservices:\n  - {name: front, kind: lidar}\n");
   for (const std::vector<std::string>& arguments :

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin {
 namespace {
@@ -20,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using tests::Process;
-using tests::TemporaryDirectory;
+using tests::TemporaryFolder;
 using tests::TestDeployment;
 
 std::string read(const std::filesystem::path& file) {
@@ -43,7 +44,7 @@ TEST(Export, SystemdAcceptsTheUnitsOfTheExamples) {
   if (::access("/usr/bin/systemd-analyze", X_OK) != 0) {
     GTEST_SKIP() << "systemd-analyze is not here (Debian package systemd): units are not verified";
   }
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const char* example : {"minimal", "rplidar_s1", "rplidar_emulated"}) {
     SCOPED_TRACE(example);
     const auto folder = directory.path() / example;

@@ -10,6 +10,7 @@
 
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/sensor_bridge/rplidar/driver/emulator_run.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin {
 namespace {
@@ -101,7 +102,7 @@ class LidarCommand : public testing::Test {
     return nlohmann::json::parse(process.output());
   }
 
-  tests::TemporaryDirectory directory_;
+  tests::TemporaryFolder directory_;
   EmulatorRun emulator_{sensor_bridge::rplidar::quick_emulator("tcp")};
 };
 

@@ -10,7 +10,7 @@
 
 #include "services/runtime/source.hpp"
 
-namespace quoin::testing {
+namespace quoin::tests {
 
 /// A service kit that never waits and keeps what is published.
 class RecordingSource : public runtime::Source {
@@ -47,4 +47,4 @@ inline deploy::ServiceConfig source_config(ParameterSettings parameters) {
   return config;
 }
 
-}  // namespace quoin::testing
+}  // namespace quoin::tests

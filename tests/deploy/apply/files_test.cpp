@@ -11,6 +11,7 @@
 #include "deploy/apply/checksum.hpp"
 #include "deploy/apply/file_watch.hpp"
 #include "deploy/apply/frozen_file.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -54,7 +55,6 @@ TEST(Checksum, IsFnv1a) {
 class Watch : public testing::Test {
  protected:
   Watch() { write("one"); }
-  ~Watch() override { std::filesystem::remove(file_); }
 
   void write(const std::string& text) const { std::ofstream(file_) << text; }
   /// As editors do: a new file gets the name of the old one.
@@ -69,8 +69,8 @@ class Watch : public testing::Test {
     return count;
   }
 
-  std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() / ("quoin_watch_" + std::to_string(::getpid()));
+  const tests::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "watched";
   FileWatch::Clock::time_point now_ = FileWatch::Clock::now();
 };
 

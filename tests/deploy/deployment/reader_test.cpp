@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "deploy/deployment/deployment.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -233,12 +234,6 @@ TEST(Deployment, NamesTopics) {
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    std::string pattern = testing::TempDir() + "quoin_XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~Files() override { std::filesystem::remove_all(folder_); }
-
   std::string error_of(const std::filesystem::path& file) {
     try {
       (void)load_deployment(file);
@@ -248,7 +243,8 @@ class Files : public testing::Test {
     return "accepted";
   }
 
-  std::filesystem::path folder_;
+  const tests::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(Files, ThatAreMissingOrNoFilesAreErrors) {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "deploy/doctor/host_checks.hpp"
 #include "deploy/doctor/network_checks.hpp"
 #include "deploy/doctor/shared_memory.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -29,20 +29,12 @@ using testing::IsEmpty;
 /// A folder that stands for one of the kernel's or for /dev/shm.
 class Doctor : public testing::Test {
  protected:
-  Doctor() {
-    std::string name = (fs::temp_directory_path() / "quoin_doctor_XXXXXX").string();
-    EXPECT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  ~Doctor() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    return temporary_.write(name, text);
   }
 
-  fs::path folder_;
+  const tests::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 auto is(Verdict verdict, const std::string& text, const std::string& advice) {

@@ -19,13 +19,13 @@
 #include "deploy/evaluation/jobs.hpp"
 #include "deploy/evaluation/progress_display.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
 
 using nlohmann::json;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -8,13 +8,14 @@
 #include "core/segmentation/segmenters.hpp"
 #include "sensor_bridge/replay/line_reader.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <yaml-cpp/yaml.h>
@@ -14,6 +13,7 @@
 #include "deploy/export/systemd.hpp"
 #include "deploy/export/systemd_text.hpp"
 #include "deploy/export/visibility.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -277,14 +277,8 @@ services: [{name: front, kind: simulated}]
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    std::string name = (std::filesystem::temp_directory_path() / "quoin_export_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    folder_ = name;
-  }
-  ~Files() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  const tests::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(Files, OfOthersAreNotReplaced) {

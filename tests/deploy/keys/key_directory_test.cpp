@@ -12,7 +12,7 @@
 #include "deploy/keys/key_files.hpp"
 #include "deploy/keys/private_file.hpp"
 #include "deploy/keys/signed_document.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -72,7 +72,7 @@ class KeyDirectory : public ::testing::Test {
                      parse_revocation_list(read_file(trust.revoked)).get());
   }
 
-  testing::TemporaryFolder folder_;
+  tests::TemporaryFolder folder_;
   std::filesystem::path keys_ = folder_.path() / "keys";
   Deployment deployment_ = parse_deployment(chain, folder_.path() / "robot.yaml");
 };

@@ -15,6 +15,7 @@
 #include "services/runtime/participant.hpp"
 #include "services/runtime/reader.hpp"
 #include "tests/integration/harness/process.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::tests {
 
@@ -29,7 +30,7 @@ class TestDeployment {
                                             const std::string& services) const;
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] const TemporaryDirectory& directory() const { return directory_; }
+  [[nodiscard]] const TemporaryFolder& directory() const { return directory_; }
   [[nodiscard]] const deploy::Deployment& deployment() const { return deployment_; }
   [[nodiscard]] std::string topic(const std::string& service) const {
     return deploy::output_topic(deployment_, deployment_.service(service));
@@ -44,7 +45,7 @@ class TestDeployment {
   [[nodiscard]] Process quoin(std::vector<std::string> arguments) const;
 
  private:
-  TemporaryDirectory directory_;
+  TemporaryFolder directory_;
   std::string head_;
   std::filesystem::path file_;
   deploy::Deployment deployment_;

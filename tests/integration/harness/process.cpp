@@ -3,7 +3,6 @@
 #include "tests/integration/harness/process.hpp"
 
 #include <atomic>
-#include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <signal.h>
@@ -87,23 +86,5 @@ std::optional<int> Process::wait(std::chrono::milliseconds timeout) {
 
 std::string Process::output() const { return read_file(output_file_); }
 std::string Process::errors() const { return read_file(error_file_); }
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (std::filesystem::temp_directory_path() / "quoin_test_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("cannot make a temporary directory");
-  path_ = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryDirectory::write(const std::string& name,
-                                                const std::string& text) const {
-  std::ofstream(path_ / name) << text;
-  return path_ / name;
-}
 
 }  // namespace quoin::tests

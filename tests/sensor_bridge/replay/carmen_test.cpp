@@ -10,13 +10,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/compressed.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
+using quoin::tests::write_compressed;
 using ::testing::ElementsAre;
 
 constexpr double pi = std::numbers::pi;
@@ -98,7 +101,7 @@ TEST(Carmen, ReadsCompressedLogsWindowsLineEndsAndAMissingLastLineEnd) {
   const TemporaryFolder folder;
   const std::string bare = good.substr(0, good.size() - 1);
   for (const auto& file :
-       {folder.write_compressed("a.log.gz", good + good), folder.write("a.log", good + bare),
+       {write_compressed(folder, "a.log.gz", good + good), folder.write("a.log", good + bare),
         folder.write("b.log", bare + "\r\n" + bare + "\r\n")}) {
     const Result result = read(file);
     EXPECT_EQ(result.error, "no error") << file;
@@ -182,7 +185,7 @@ TEST(CarmenFile, GivesAllWholeScansOfACompressedLogThatIsCutOff) {
   const TemporaryFolder folder;
   std::string content;
   for (int i = 0; i < 200; ++i) content += flaser(180 + i % 3);
-  const auto file = folder.write_compressed("cut.log.gz", content);
+  const auto file = write_compressed(folder, "cut.log.gz", content);
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 20);
   const Result result = read(file);
   EXPECT_GE(result.scans.size(), 100U);

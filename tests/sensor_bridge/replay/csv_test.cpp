@@ -8,13 +8,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
 using ::testing::ElementsAre;
 
 std::string csv_error(const TemporaryFolder& folder, const std::string& content) {

@@ -8,13 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/compressed.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
+using quoin::tests::write_compressed;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -49,7 +52,7 @@ TEST(LineReader, ReadsLinesOfAnyLengthPlainAndCompressed) {
     content += expected.back() + "\n";
   }
   EXPECT_EQ(all_lines(folder.write("plain", content)), expected);
-  EXPECT_EQ(all_lines(folder.write_compressed("compressed.gz", content)), expected);
+  EXPECT_EQ(all_lines(write_compressed(folder, "compressed.gz", content)), expected);
 }
 
 TEST(LineReader, RefusesALineThatIsTooLong) {
@@ -73,7 +76,7 @@ TEST(LineReader, GivesEachWholeLineOfACompressedFileThatIsCutOff) {
   const TemporaryFolder folder;
   std::string content;
   for (int i = 0; i < 5000; ++i) content += std::to_string(i * 7919 % 10007) + "\n";
-  const std::filesystem::path file = folder.write_compressed("cut.gz", content);
+  const std::filesystem::path file = write_compressed(folder, "cut.gz", content);
   const auto whole_size = std::filesystem::file_size(file);
   for (const auto missing : {1U, 4U, 9U, 500U, 5000U}) {
     std::filesystem::resize_file(file, whole_size - missing);
@@ -90,7 +93,7 @@ TEST(LineReader, GivesEachWholeLineOfACompressedFileThatIsCutOff) {
     EXPECT_THAT(
         error,
         HasSubstr(": the compressed file ends in the middle; it was cut off, copy it again"));
-    folder.write_compressed("cut.gz", content);
+    write_compressed(folder, "cut.gz", content);
   }
 }
 
@@ -98,7 +101,7 @@ TEST(LineReader, ReportsADamagedCompressedFileAfterTheLinesBefore) {
   const TemporaryFolder folder;
   std::string content;
   for (int i = 0; i < 20000; ++i) content += std::to_string(i * 7919 % 10007) + "\n";
-  const std::filesystem::path file = folder.write_compressed("damaged.gz", content);
+  const std::filesystem::path file = write_compressed(folder, "damaged.gz", content);
   {
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     stream.seekp(static_cast<std::streamoff>(std::filesystem::file_size(file)) - 6);  // checksum

@@ -10,16 +10,17 @@
 #include <gtest/gtest.h>
 
 #include "sensor_bridge/replay/line_reader.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::RecordingSource;
-using quoin::testing::source_config;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::RecordingSource;
+using quoin::tests::source_config;
+using quoin::tests::TemporaryFolder;
 using ::testing::ElementsAre;
 
 std::string flaser(const std::string& ranges, const std::string& stamp) {

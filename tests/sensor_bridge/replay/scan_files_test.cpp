@@ -9,13 +9,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/compressed.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
+using quoin::tests::write_compressed;
 using ::testing::ElementsAre;
 
 constexpr double pi = std::numbers::pi;
@@ -38,7 +41,7 @@ TEST(ScanFiles, ReadAFolderInTheOrderOfNames) {
   const TemporaryFolder folder;
   folder.write("c.csv", "0,4\n");
   folder.write("a.log", flaser("1") + flaser("2"));
-  folder.write_compressed("b.log.gz", flaser("3"));
+  write_compressed(folder, "b.log.gz", flaser("3"));
   folder.write("a.txt", "not a scan");
   folder.write("notes.md", "neither");
   std::filesystem::create_directory(folder.path() / "d.csv");

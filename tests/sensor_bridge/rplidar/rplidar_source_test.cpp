@@ -15,14 +15,14 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-using quoin::testing::source_config;
+using quoin::tests::source_config;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Pair;
 
 /// Waits as the service kit does; keeps each scan.
-class WaitingSource : public quoin::testing::RecordingSource {
+class WaitingSource : public quoin::tests::RecordingSource {
  public:
   bool wait_until(std::chrono::steady_clock::time_point time) override {
     std::this_thread::sleep_until(time);

@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
+using quoin::tests::error_of;
 
 TEST(ScannerSettings, AreThoseOfTheParameters) {
   const auto parameters = make_parameters<SimulatedParameters>({{"rate_hz", "20"},

@@ -11,15 +11,15 @@
 
 #include "sensor_bridge/simulated/scanner_settings.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::RecordingSource;
-using quoin::testing::source_config;
+using quoin::tests::error_of;
+using quoin::tests::RecordingSource;
+using quoin::tests::source_config;
 
 // NaN equals NaN here: the very same bits are meant.
 bool same(const std::vector<float>& a, const std::vector<float>& b) {

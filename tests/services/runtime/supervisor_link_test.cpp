@@ -8,6 +8,7 @@
 
 #include "tests/integration/harness/process.hpp"
 #include "tests/services/runtime/notify_socket.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::runtime {
 namespace {
@@ -43,13 +44,9 @@ void says_everything(NotifySocket& socket) {
 }
 
 TEST(SupervisorLink, SpeaksToASocketOfAnyKind) {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("quoin_notify_" + std::to_string(::getpid()));
-  {
-    NotifySocket socket(path.string());
-    says_everything(socket);
-  }
-  std::filesystem::remove(path);
+  const tests::TemporaryFolder folder;
+  NotifySocket socket((folder.path() / "notify").string());
+  says_everything(socket);
   NotifySocket abstract("@quoin_notify_" + std::to_string(::getpid()));
   says_everything(abstract);
 }

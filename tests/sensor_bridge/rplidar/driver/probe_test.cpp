@@ -86,7 +86,7 @@ TEST(Probe, TellsOfAnUnknownModel) {
 }
 
 TEST(Probe, TellsThatNobodyIsThere) {
-  const quoin::testing::PseudoTerminal terminal;
+  const quoin::tests::PseudoTerminal terminal;
   const ProbeReport report = probe_at(parse_endpoint(terminal.path()));
   EXPECT_EQ(report.diagnosis.finding, Finding::no_bytes);
   EXPECT_THAT(to_text(report.diagnosis),

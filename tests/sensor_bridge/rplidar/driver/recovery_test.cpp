@@ -9,12 +9,12 @@
 
 #include "tests/sensor_bridge/rplidar/driver/driver_run.hpp"
 #include "tests/sensor_bridge/rplidar/driver/emulator_run.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-using quoin::testing::TemporaryFolder;
+using quoin::tests::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

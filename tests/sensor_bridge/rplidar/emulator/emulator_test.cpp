@@ -15,14 +15,15 @@
 #include "sensor_bridge/rplidar/emulator/console.hpp"
 #include "sensor_bridge/rplidar/emulator/udp_server.hpp"
 #include "sensor_bridge/rplidar/protocol/sample_decoder.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/rplidar/emulator/plain_client.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-using quoin::testing::error_of;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::TemporaryFolder;
 using ::testing::HasSubstr;
 
 constexpr std::string_view info_request = "A5 50";

@@ -7,12 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-using quoin::testing::error_of;
+using quoin::tests::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;

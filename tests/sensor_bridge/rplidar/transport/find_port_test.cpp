@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -41,14 +41,14 @@ std::string refusal(const fs::path& root) {
 }
 
 TEST(FindPort, TakesTheOnlyUsualAdapter) {
-  const quoin::testing::TemporaryFolder folder;
+  const quoin::tests::TemporaryFolder folder;
   plug_in(folder.path(), "ttyUSB0", "0403", "6001");
   plug_in(folder.path(), "ttyUSB1", "10c4", "ea60");
   EXPECT_EQ(find_endpoint("auto", folder.path()).path, "/dev/ttyUSB1");
 }
 
 TEST(FindPort, NamesTheChoiceWhenItCannotChoose) {
-  const quoin::testing::TemporaryFolder folder;
+  const quoin::tests::TemporaryFolder folder;
   EXPECT_THAT(refusal(folder.path()), HasSubstr("plug the device in"));
   plug_in(folder.path(), "ttyUSB0", "0403", "6001");
   EXPECT_THAT(refusal(folder.path()), AllOf(HasSubstr("usual type"), HasSubstr("/dev/ttyUSB0")));

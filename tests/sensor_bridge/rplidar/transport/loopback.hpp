@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quoin::testing {
+namespace quoin::tests {
 
 /// A socket of this computer, closed at its end.
 class LoopbackSocket {
@@ -61,4 +61,4 @@ class LoopbackSocket {
   return LoopbackSocket(::accept4(listener.number(), nullptr, nullptr, SOCK_CLOEXEC));
 }
 
-}  // namespace quoin::testing
+}  // namespace quoin::tests

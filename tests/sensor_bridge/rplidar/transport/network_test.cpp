@@ -9,19 +9,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/rplidar/transport/loopback.hpp"
 #include "tests/sensor_bridge/rplidar/transport/transport_reading.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
 using namespace std::chrono_literals;
-using quoin::testing::accept_from;
-using quoin::testing::bound;
-using quoin::testing::error_of;
-using quoin::testing::listening;
-using quoin::testing::LoopbackSocket;
+using quoin::tests::accept_from;
+using quoin::tests::bound;
+using quoin::tests::error_of;
+using quoin::tests::listening;
+using quoin::tests::LoopbackSocket;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quoin::testing {
+namespace quoin::tests {
 
 /// The far end of a serial port, held by the test.
 class PseudoTerminal {
@@ -58,4 +58,4 @@ class PseudoTerminal {
   std::string path_;
 };
 
-}  // namespace quoin::testing
+}  // namespace quoin::tests

@@ -14,17 +14,18 @@
 
 #include "sensor_bridge/rplidar/transport/port_holders.hpp"
 #include "sensor_bridge/rplidar/transport/serial_line.hpp"
+#include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/rplidar/transport/pseudo_terminal.hpp"
 #include "tests/sensor_bridge/rplidar/transport/transport_reading.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
 using namespace std::chrono_literals;
-using quoin::testing::error_of;
-using quoin::testing::PseudoTerminal;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::error_of;
+using quoin::tests::PseudoTerminal;
+using quoin::tests::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;

@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "sensor_bridge/rplidar/transport/port_holders.hpp"
-#include "tests/sensor_bridge/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
 namespace fs = std::filesystem;
-using quoin::testing::TemporaryFolder;
+using quoin::tests::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
