@@ -67,6 +67,10 @@ step "packages"
 deploy/install_packages.sh
 if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
+# Nothing that runs from here may leave anything there.
+export TMPDIR=$work/tmp
+mkdir "$TMPDIR"
+
 step "release build"
 cmake --preset release -DQUOIN_TESTS=ON -DQUOIN_BENCHMARKS=ON
 cmake --build --preset release -j "$jobs"
@@ -93,4 +97,10 @@ fi
 if $fuzzing; then
   step "fuzz targets"
   tests/fuzz/run.sh
+fi
+
+step "temporary files left behind"
+if [[ -n $(ls -A "$TMPDIR") ]]; then
+  ls -AR "$TMPDIR"
+  exit 1
 fi
