@@ -16,15 +16,20 @@ std::map<std::uint64_t, ServiceReport> Incarnations::processes() const {
 ServiceReport Incarnations::total() const {
   ServiceReport total;
   if (!reports_.empty()) total = reports_.rbegin()->second;
-  total.published = 0;
-  for (const auto& [incarnation, process] : processes()) {
-    total.published += process.published;
-    if (reports_.empty() || incarnation == reports_.rbegin()->first) continue;
-    total.received += process.received;
-    total.lost += process.lost;
-    total.upstream_lost += process.upstream_lost;
-    total.failures += process.failures;
-    for (const auto& [cause, count] : process.losses) total.losses[cause] += count;
+  for (auto report = reports_.begin(); report != reports_.end(); ++report) {
+    if (std::next(report) == reports_.end()) break;
+    const ServiceReport& older = report->second;
+    total.received += older.received;
+    total.published += older.published;
+    total.lost += older.lost;
+    total.upstream_lost += older.upstream_lost;
+    total.failures += older.failures;
+    for (const auto& [cause, count] : older.losses) total.losses[cause] += count;
+  }
+  for (const auto& [incarnation, count] : published_at_least_) {
+    const auto report = reports_.find(incarnation);
+    const std::uint64_t told = report == reports_.end() ? 0 : report->second.published;
+    total.published += std::max(count, told) - told;
   }
   return total;
 }
