@@ -31,6 +31,11 @@ bool serves_discovery(const Deployment& deployment) {
 
 namespace {
 
+// [s] Readers that live are found again in less. While it waits for others a process does nothing
+// for those either.
+constexpr auto patience_of_a_restart = "2";
+constexpr auto patience_of_a_secured_restart = "6";
+
 /// Nothing when no server of the deployment is on this host.
 std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
                                           const std::filesystem::path& file) {
@@ -85,6 +90,8 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
     plan.source = service.input.empty() && publishes;
     plan.level = level;
     plan.restart = service.restart == RestartPolicy::always;
+    plan.again = {"--patience",
+                  deployment.security ? patience_of_a_secured_restart : patience_of_a_restart};
     if (!publishes) behind.push_back(plans.size());
     last_level = std::max(last_level, plan.level);
     plans.push_back(std::move(plan));

@@ -122,7 +122,11 @@ void Supervisor::start() {
 }
 
 void Supervisor::launch(Child& child) {
-  child.process = std::make_unique<Process>(child.plan.program, child.plan.arguments);
+  std::vector<std::string> arguments = child.plan.arguments;
+  if (child.figures.restarts > 0 && callbacks_.was_active(child.plan.name)) {
+    arguments.insert(arguments.end(), child.plan.again.begin(), child.plan.again.end());
+  }
+  child.process = std::make_unique<Process>(child.plan.program, arguments);
   child.started = Clock::now();
   child.figures.phase = ProcessPhase::running;
   child.figures.process_id = static_cast<int>(child.process->pid());

@@ -28,6 +28,7 @@ struct ProcessPlan {
   bool source = false;
   bool restart = true;                       ///< start again when it dies
   std::chrono::milliseconds least_pause{0};  ///< before that
+  std::vector<std::string> again = {};       ///< more arguments, once it has been active
 };
 
 enum class ProcessPhase {

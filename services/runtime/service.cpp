@@ -3,6 +3,7 @@
 #include "services/runtime/service.hpp"
 
 #include <exception>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -27,16 +28,24 @@ const deploy::ServiceConfig& find_service(const deploy::Deployment& deployment,
                                  kind + suggestion(name, candidates)});
 }
 
+// [s] Each pair of participants has to shake hands first, which takes ten of them that start at
+// once on a busy machine many seconds.
+double default_patience(const deploy::Deployment& deployment) {
+  return deployment.security ? 30.0 : 10.0;
+}
+
 }  // namespace
 
 Service::Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
-                 const deploy::ServiceConfig& service_config, std::size_t readers, bool held)
+                 const deploy::ServiceConfig& service_config, std::size_t readers,
+                 std::chrono::duration<double> patience_with_readers, bool held)
     : stop(stop_signal),
       deployment(deployment_file),
       config(service_config),
       participant(participant_config(deployment, label(config))),
       heartbeat(participant, deployment, config),
       expected_readers(readers),
+      patience(patience_with_readers),
       succession(held) {}
 
 bool Service::wait_for_readers(const WriterBase& writer) {
@@ -45,10 +54,8 @@ bool Service::wait_for_readers(const WriterBase& writer) {
   if (expected_readers == 0) return !stop.requested();
   heartbeat.set_state(msg::ServiceState::STATE_STARTING,
                       "waiting for " + std::to_string(expected_readers) + " readers");
-  // Each pair of participants has to shake hands first, which takes ten of them that start at once
-  // on a busy machine many seconds.
-  const std::chrono::seconds patience(deployment.security ? 30 : 10);
-  const auto deadline = steady_clock::now() + patience;
+  const auto deadline =
+      steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(patience);
   while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
     if (stop.requested()) return false;
     if (!succession.held() && steady_clock::now() > deadline) {
@@ -69,11 +76,15 @@ int run_service(
   std::string service_name;
   std::string deployment_name;
   std::size_t observers = 0;
+  std::optional<double> patience;
   bool held = false;
   app.add_option("--deployment", deployment_file, "Deployment file (YAML)")->required();
   app.add_option("--service", service_name, "Name of this service in it")->required();
   app.add_option("--observers", observers,
                  "Readers outside the deployment to wait for before the first scan");
+  app.add_option("--patience", patience,
+                 "Seconds to wait for readers before going on without them (10, with security 30)")
+      ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--deployment-name", deployment_name,
                  "What the deployment file is a copy of: messages name that, and paths in it count "
                  "from its folder");
@@ -96,6 +107,7 @@ int run_service(
     const deploy::ServiceConfig& config = find_service(deployment, service_name, kind);
     check(deployment, config);
     Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers,
+                    std::chrono::duration<double>(patience.value_or(default_patience(deployment))),
                     held);
     return run(service);
   } catch (const deploy::DeploymentError& error) {

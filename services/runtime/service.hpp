@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -25,15 +26,17 @@ struct Service {
   Heartbeat heartbeat;
   /// Readers of the output to wait for before the input is opened.
   std::size_t expected_readers;
+  std::chrono::duration<double> patience;  ///< with readers that are not there
   Succession succession;
 
   /// `held`: to take over from another process of the service.
   Service(StopSignal& stop_signal, const deploy::Deployment& deployment_file,
-          const deploy::ServiceConfig& service_config, std::size_t readers, bool held);
+          const deploy::ServiceConfig& service_config, std::size_t readers,
+          std::chrono::duration<double> patience_with_readers, bool held);
 
-  /// Waits until `writer` has the expected readers. Goes on without them after ten seconds, with
-  /// security after thirty, since a reader that crashed must not hold up the others, but not when
-  /// held: the other process is still at work. False when asked to stop meanwhile.
+  /// Waits until `writer` has the expected readers. Goes on without them when its patience has
+  /// ended, since a reader that crashed must not hold up the others, but not when held: the other
+  /// process is still at work. False when asked to stop meanwhile.
   [[nodiscard]] bool wait_for_readers(const WriterBase& writer);
 };
 

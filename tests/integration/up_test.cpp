@@ -122,6 +122,27 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   EXPECT_GT(corners["lost_by_stage"]["walls"], 0);
 }
 
+TEST(Up, AHungServiceHoldsUpARestartedOneForAShortTimeOnly) {
+  const TestDeployment deployment(
+      chain("rate_hz: 50") + "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n");
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE"});
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 50; }));
+  ASSERT_TRUE(status.wait_for("utls", [](const auto& s) { return s.published() > 50; }));
+  const auto hung = static_cast<pid_t>(status.latest("utls").pid());
+  const auto walls = status.latest("walls");
+  ASSERT_EQ(kill(hung, SIGSTOP), 0);
+  ASSERT_EQ(kill(static_cast<pid_t>(walls.pid()), SIGKILL), 0);
+  ASSERT_TRUE(status.wait_for("walls", [&](const auto& s) {
+    return s.incarnation() != walls.incarnation() && s.published() > 50;
+  }));
+  ASSERT_EQ(kill(hung, SIGCONT), 0);
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(30s), 0) << up.errors();
+  EXPECT_THAT(up.errors(), HasSubstr("readers are there after 2 s; going on"));
+}
+
 TEST(Up, CountsTheScansOfASourceThatLivedAndDiedWhileAReaderHeardNothing) {
   const TestDeployment deployment(
       chain("rate_hz: 50") +

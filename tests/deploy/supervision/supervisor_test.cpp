@@ -66,6 +66,17 @@ TEST_F(Supervision, ForwardsOutputLineByLine) {
   EXPECT_EQ(supervisor_->figures("front").phase, ProcessPhase::finished);
 }
 
+TEST_F(Supervision, TellsAProcessThatIsStartedAgainOnceItHasBeenActive) {
+  ProcessPlan walls = plan("walls", "echo \"$0 $#\"; test $# -gt 0", 1);
+  walls.arguments.push_back("first");
+  walls.again = {"--patience", "2"};
+  start({walls});
+  ASSERT_TRUE(poll_until([this] { return supervisor_->figures("walls").restarts == 2; }));
+  active_.insert("walls");
+  ASSERT_TRUE(wait_for_line("walls: first 2"));
+  EXPECT_THAT(lines_, Contains("walls: first 0"));
+}
+
 TEST_F(Supervision, GivesNoInput) {
   start({plan("front", "cat; echo end")});
   ASSERT_TRUE(poll_to_the_end());
