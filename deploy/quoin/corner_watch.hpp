@@ -37,7 +37,6 @@ class CornerWatch {
   [[nodiscard]] runtime::ReaderBase& reader() { return reader_; }
   /// Name of the service that its scans come from.
   void set_source(const std::string& name) { source_ = name; }
-  [[nodiscard]] const std::string& source() const { return source_; }
   /// Of the last message: the source's part.
   [[nodiscard]] const msg::StageTrace& source_trace() const { return source_trace_; }
 
@@ -68,7 +67,7 @@ class CornerWatch {
   runtime::ScanAccounting accounting_;
   bool joined_late_;
   bool ended_ = false;
-  std::uint64_t first_number_ = 0;  // of the first scan that came, or was for us
+  std::uint64_t first_number_ = 0;  // of the first scan that came, unless nobody waited for it
   std::uint64_t corners_ = 0;
   QuantileHistogram sigma_;
   QuantileHistogram ellipse_area_;
