@@ -10,9 +10,11 @@ namespace {
 
 constexpr std::size_t most_sources = 4;  // processes of one source that are remembered
 
-// [ns] A stage is not later than that. An instance of a source that has another clock may be, and
-// is heard again.
+// [ns] A stage is not later than that, even on a machine that is overloaded, when what it brings is
+// older than the present process of the source. An instance of a source that has another clock may
+// be, and is heard again.
 constexpr std::int64_t latest_repetition = 10'000'000'000;
+constexpr std::int64_t latest_of_the_dead = 60'000'000'000;
 
 // Of a process of the source; null when nothing was heard of it.
 template <class Accounts>
@@ -97,16 +99,21 @@ bool ScanAccounting::continues_numbers(const msg::Header& header) const {
          header.sequence_number() - source.index() > previous_->sequence_number;
 }
 
-// Whether this is of a process of the source that was heard before the present one, and either
-// settled or older than what that one has sent: from a stage that is late.
+// Whether this is of an earlier process of the source than the present one, and was settled or is
+// older than what that one has sent: from a stage that is late.
 bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
   const msg::StageTrace& source = header.trace()[0];
-  if (source.incarnation() == previous_->stages[0].incarnation) return false;
+  const StagePosition& present = previous_->stages[0];
+  if (source.incarnation() == present.incarnation) return false;
   const SourceAccount* const account = find_account(sources_, source.incarnation());
-  if (account == nullptr) return false;
-  const std::int64_t late = previous_->stages[0].published - source.published();
-  return account->handed_over || source.index() < account->settled ||
-         (late > 0 && late < latest_repetition);
+  if (account != nullptr && (account->handed_over || source.index() < account->settled)) {
+    return true;
+  }
+  const std::int64_t late = present.published - source.published();
+  if (late <= 0) return false;
+  const bool of_the_dead = source.published() < static_cast<std::int64_t>(present.incarnation);
+  return (of_the_dead && late < latest_of_the_dead) ||
+         (account != nullptr && late < latest_repetition);
 }
 
 // The usual case: the next result of every stage.

@@ -302,25 +302,38 @@ TEST(ScanAccounting, DoubledScansAreCountedApart) {
   EXPECT_EQ(accounting.lost(), 0U);
 }
 
-TEST(ScanAccounting, AMessageThatIsVeryLateDoesNotLetItsSuccessorsCountTwice) {
-  ScanAccounting accounting;
-  const auto scan = [](std::uint64_t started, std::uint64_t number, std::int64_t published) {
-    msg::Header header = by_instance(number, 1, number);
-    header.trace()[0].incarnation(started);
-    header.trace()[0].published(published);
-    header.trace()[2].incarnation(started);
-    return header;
-  };
-  constexpr std::int64_t minute = 60'000'000'000;
-  accounting.receive(scan(1, 100, 10));
-  accounting.receive(scan(minute, 0, minute + 10));
-  for (std::uint64_t i = 1; i < 20; ++i) {
-    EXPECT_THAT(accounting.receive(scan(minute, i, minute + 10)), IsEmpty());
+TEST(ScanAccounting, ALateMessageDoesNotLetItsSuccessorsCountTwice) {
+  for (const std::int64_t second_start : {50'000'000'000LL, 500'000'000'000LL}) {
+    SCOPED_TRACE(second_start);
+    ScanAccounting accounting;
+    const auto scan = [](std::int64_t started, std::uint64_t number) {
+      msg::Header header = by_instance(number, 1, number);
+      header.trace()[0].incarnation(static_cast<std::uint64_t>(started));
+      header.trace()[0].published(started + static_cast<std::int64_t>(number));
+      header.trace()[2].incarnation(static_cast<std::uint64_t>(started));
+      return header;
+    };
+    accounting.receive(scan(1, 100));
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      EXPECT_THAT(accounting.receive(scan(second_start, i)), IsEmpty());
+    }
+    EXPECT_THAT(accounting.receive(scan(1, 101)), IsEmpty());
+    const bool may_be_of_another_clock = second_start > 60'000'000'000;
+    EXPECT_EQ(accounting.last_was_duplicate(), !may_be_of_another_clock);
+    accounting.receive(scan(second_start, 23));
+    EXPECT_EQ(accounting.lost(), 3U);
   }
-  const std::uint64_t lost = accounting.lost();
-  EXPECT_THAT(accounting.receive(scan(1, 101, 11)), IsEmpty());  // an hour late, so to speak
-  accounting.receive(scan(minute, 23, minute + 10));
-  EXPECT_EQ(accounting.lost(), lost + 3);
+}
+
+TEST(ScanAccounting, WhatIsOlderThanTheFirstSourceThatWasHeardIsOfNone) {
+  ScanAccounting accounting;
+  msg::Header header = by_instance(5, 1, 5);
+  header.trace()[0].incarnation(2000);
+  header.trace()[0].published(3000);
+  accounting.receive(header);
+  accounting.receive(by_instance(100, 1, 4));  // published at 1100
+  EXPECT_TRUE(accounting.last_was_duplicate());
+  EXPECT_EQ(accounting.sources().size(), 1U);
 }
 
 TEST(ScanAccounting, KeepsAnAccountOfEachProcessOfTheSource) {

@@ -96,10 +96,10 @@ TEST(SourceLedger, TellsWhatWasBeforeTheFirstScanThatArrived) {
   EXPECT_EQ(ledger.scans_before(30), 101U) << "the second one's are counted by numbers";
 }
 
-/// A source, a stage and two readers, each of which may fail at any time.
+/// A source, a stage and two readers, each of which may fail at any time; results may be late.
 class Accident {
  public:
-  explicit Accident(unsigned seed) : random_(seed) {}
+  Accident(unsigned seed, std::int64_t latest) : random_(seed), latest_(latest) {}
 
   void run(int scans) {
     for (int i = 0; i < scans; ++i) {
@@ -109,6 +109,7 @@ class Accident {
       deaf_source_ = happens(0.02) ? !deaf_source_ : deaf_source_;
       for (bool& deaf : deaf_readers_) deaf = happens(0.02) ? !deaf : deaf;
       publish();
+      for (Reader& reader : readers_) reader.take(clock_);
     }
   }
 
@@ -144,8 +145,18 @@ class Accident {
     std::uint64_t made;
   };
   struct Reader {
+    void take(std::int64_t now) {
+      while (!on_the_way.empty() && on_the_way.begin()->first <= now) {
+        const msg::Header& header = on_the_way.begin()->second;
+        if (accounting.sources().empty()) first = header.sequence_number();
+        accounting.receive(header);
+        on_the_way.erase(on_the_way.begin());
+      }
+    }
+
     ScanAccounting accounting;
     std::uint64_t first = 0;
+    std::multimap<std::int64_t, msg::Header> on_the_way;  // by when they come
   };
 
   bool happens(double probability) {
@@ -172,14 +183,17 @@ class Accident {
     header.trace()[1].published(clock_);
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       if (deaf_readers_[i]) continue;
-      if (readers_[i].accounting.sources().empty()) readers_[i].first = header.sequence_number();
-      readers_[i].accounting.receive(header);
+      const bool late = latest_ > 0 && happens(0.02);
+      const std::int64_t delay =
+          late ? std::uniform_int_distribution<std::int64_t>(0, latest_)(random_) : 0;
+      readers_[i].on_the_way.emplace(clock_ + delay, header);
       source.heard.published =
           std::max<std::uint64_t>(source.heard.published, header.trace()[0].index() + 1);
     }
   }
 
   std::mt19937 random_;
+  std::int64_t latest_;  // [ns]
   std::int64_t clock_ = 1'000'000'000;
   std::map<std::uint64_t, Source> sources_{{1'000'000'000, {}}};
   Stage stage_{1'000'000'000, 0};
@@ -191,10 +205,13 @@ class Accident {
 TEST(SourceLedger, AccountsForEachScanWhateverFails) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    Accident accident(seed);
-    accident.run(2000);
-    accident.judge(true);
-    accident.judge(false);
+    for (const std::int64_t latest : {0LL, 5'000'000'000LL, 50'000'000'000LL}) {
+      SCOPED_TRACE(latest);
+      Accident accident(seed, latest);
+      accident.run(2000);
+      accident.judge(true);
+      accident.judge(false);
+    }
   }
 }
 
