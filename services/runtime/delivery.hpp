@@ -15,8 +15,8 @@ namespace quoin::runtime {
 /// How long the end of a service may wait: for room in a full history once the stop is requested,
 /// and for the last results to be acknowledged. With a write that was under way and the last
 /// heartbeat it is less than the five seconds after which `quoin up` kills.
-inline constexpr std::chrono::seconds longest_wait_for_room{2};
-inline constexpr std::chrono::seconds longest_wait_for_acknowledgments{1};
+inline constexpr std::chrono::seconds longest_wait_for_room{1};
+inline constexpr std::chrono::seconds longest_wait_for_acknowledgments{2};
 
 /// Stamps `trace` (which is part of `message`) and writes the message. With the lossless preset the
 /// write is tried again while slow readers keep the history full, until longest_wait_for_room after

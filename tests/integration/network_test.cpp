@@ -267,7 +267,8 @@ TEST_F(Network, LosslessLosesNothingOnLinksThatLoseAndDelay) {
         << loss << ", " << delay.count() << " ms";
   }
   robot.hosts().impair(0.0, 0ms);
-  EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
+  const json corners = robot.stop_all()["corners"];
+  EXPECT_EQ(corners["scans_lost"], 0) << corners << robot.logs();
 }
 
 TEST_F(Network, ApplyChangesTheShareOfTheHostThatIsNamed) {
