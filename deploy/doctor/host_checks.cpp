@@ -95,6 +95,19 @@ Check check_socket_buffers(const fs::path& folder, std::uint64_t wanted) {
           advice + " (as root; a file in /etc/sysctl.d keeps it)"};
 }
 
+Check check_reassembly(const fs::path& folder) {
+  constexpr std::uint64_t wanted = 3;  // [s] what is repeated comes much earlier
+  const std::string name = "lost packets";
+  const auto seconds = read_number(folder / "ipfrag_time", std::dec);
+  if (!seconds) return {name, Verdict::good, "not told in this container; see the host", ""};
+  if (*seconds <= wanted) return {name, Verdict::good, "soon forgotten", ""};
+  return {name, Verdict::doubtful,
+          "net.ipv4.ipfrag_time is " + std::to_string(*seconds) +
+              ": on a link that loses packets no scan may arrive for that many seconds",
+          "sysctl -w net.ipv4.ipfrag_time=" + std::to_string(wanted) +
+              " (as root; a file in /etc/sysctl.d keeps it)"};
+}
+
 Checks check_network(const NetworkConfig& network, const std::vector<NamedInterface>& interfaces,
                      const fs::path& interface_folder, const fs::path& routes) {
   if (network.interfaces.empty()) {

@@ -15,6 +15,10 @@ namespace quoin::deploy {
 /// Whether the kernel grants sockets buffers of `wanted` bytes; `folder` is /proc/sys/net/core.
 [[nodiscard]] Check check_socket_buffers(const std::filesystem::path& folder, std::uint64_t wanted);
 
+/// Whether the kernel soon forgets datagrams of which a part was lost: until then they take the
+/// place of others; `folder` is /proc/sys/net/ipv4.
+[[nodiscard]] Check check_reassembly(const std::filesystem::path& folder);
+
 /// An interface of this host that a deployment names.
 struct NamedInterface {
   std::string name;

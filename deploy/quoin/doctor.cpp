@@ -104,6 +104,10 @@ int run(const DoctorOptions& options, bool one_namespace) {
   if (removed > 0) checks.back().text += "; " + std::to_string(removed) + " were removed";
   append(checks, check_interfaces(deployment.network));
   checks.push_back(check_socket_buffers("/proc/sys/net/core", runtime::socket_buffer_bytes));
+  // Without security nothing is sent that has to be put together again.
+  if (deployment.security && !deployment.network.interfaces.empty()) {
+    checks.push_back(check_reassembly("/proc/sys/net/ipv4"));
+  }
   append(checks, check_disks(options));
   checks.push_back(check_programs(program_folder()));
   checks.push_back(check_orphans("/proc"));

@@ -34,8 +34,16 @@ rtps::Locator_t locator(const std::string& address, std::uint32_t port = 0) {
   return made;
 }
 
-std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const std::vector<std::string>& addresses) {
+// [byte] Of UDP payload that goes through links and tunnels of an MTU of 1400 bytes in one piece.
+constexpr std::uint32_t one_packet = 1372;
+
+std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const ParticipantConfig& config,
+                                                        const std::vector<std::string>& addresses) {
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  // What is larger DDS divides, and repeats a part that was lost. IP would have to repeat all, and
+  // on links that lose the kernel's memory for incomplete datagrams is soon full, which lets none
+  // arrive for half a minute. With security handshakes are too large, and are not divided.
+  if (!config.network.interfaces.empty() && !config.security) udp->maxMessageSize = one_packet;
   udp->interfaceWhiteList = addresses;
   udp->maxInitialPeersRange = max_participants;
   udp->sendBufferSize = socket_buffer_bytes;
@@ -133,7 +141,7 @@ dds::DomainParticipantQos network_qos(const ParticipantConfig& config,
                                       const std::vector<std::string>& addresses) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.push_back(udp_transport(addresses));
+  qos.transport().user_transports.push_back(udp_transport(config, addresses));
 
   auto& builtin = qos.wire_protocol().builtin;
   for (const std::string& address : addresses) {

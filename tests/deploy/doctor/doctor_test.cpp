@@ -93,6 +93,15 @@ TEST_F(Doctor, TellsWhichSocketBufferIsTooSmall) {
       << "a container may not see them";
 }
 
+TEST_F(Doctor, FindsThatLostPacketsBlockOthersForLong) {
+  write("ipfrag_time", "30\n");
+  EXPECT_THAT(check_reassembly(folder_), is(Verdict::doubtful, "net.ipv4.ipfrag_time is 30",
+                                            "sysctl -w net.ipv4.ipfrag_time=3 ("));
+  write("ipfrag_time", "3\n");
+  EXPECT_THAT(check_reassembly(folder_), is(Verdict::good, "", ""));
+  EXPECT_THAT(check_reassembly(folder_ / "none"), is(Verdict::good, "", ""));
+}
+
 TEST_F(Doctor, LooksAtInterfacesThatTheDeploymentNames) {
   write("eth0/flags", "0x1003\n");  // up, broadcast, multicast
   write("can0/flags", "0x3\n");

@@ -186,6 +186,21 @@ std::uint64_t Hosts::frames(const std::string& host, const std::string& interfac
   });
 }
 
+std::uint64_t Hosts::fragments(const std::string& host) const {
+  return on(host, [&]() -> std::uint64_t {
+    // The first line that begins with "Ip:" has names, the second the numbers.
+    std::ifstream file("/proc/thread-self/net/snmp");
+    std::string names, numbers;
+    std::getline(file, names);
+    std::getline(file, numbers);
+    std::istringstream name_fields(names), number_fields(numbers);
+    for (std::string name, number; name_fields >> name && number_fields >> number;) {
+      if (name == "FragCreates") return std::stoull(number);
+    }
+    throw std::runtime_error("no count of fragments on " + host);
+  });
+}
+
 void Hosts::impair(double loss, std::chrono::milliseconds delay) const {
   if (wire_) {
     wire_->impair(loss, delay);

@@ -44,6 +44,8 @@ class Hosts {
   void mend(const std::string& host) const;
   /// Frames that `interface` of `host` has sent and received.
   [[nodiscard]] std::uint64_t frames(const std::string& host, const std::string& interface) const;
+  /// IP packets that `host` has sent and that were parts of larger ones.
+  [[nodiscard]] std::uint64_t fragments(const std::string& host) const;
   /// From now on, of what passes the lossy link (both ways) each frame is lost with this
   /// probability, the others are late.
   void impair(double loss, std::chrono::milliseconds delay) const;
