@@ -175,8 +175,7 @@ void ScanAccounting::settle(const msg::Header& header, Change change,
       before.settled += lost - header.sequence_number();
     }
   }
-  sources_.push_back(
-      {source.service(), source.incarnation(), settled, offset, change == Change::begin, false});
+  sources_.push_back({source.incarnation(), settled, offset, change == Change::begin, false});
 }
 
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {

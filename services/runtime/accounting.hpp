@@ -21,7 +21,6 @@ struct Loss {
 
 /// What a reader has settled of one process of a source.
 struct SourceAccount {
-  std::string service;
   std::uint64_t incarnation = 0;
   /// What it published and was delivered, is lost, or was for nobody. Losses that are known to be
   /// behind its last scan that arrived are among them, even when they are of processes after it of

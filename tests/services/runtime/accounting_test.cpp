@@ -347,7 +347,6 @@ TEST(ScanAccounting, KeepsAnAccountOfEachProcessOfTheSource) {
   accounting.receive(pipeline.scan());
   ASSERT_EQ(accounting.sources().size(), 2U);
   const SourceAccount& first = accounting.sources()[0];
-  EXPECT_EQ(first.service, "front");
   EXPECT_EQ(first.incarnation, 1U);
   EXPECT_TRUE(first.begins);
   EXPECT_EQ(first.settled, 3U + 5U + 3U) << "one of the four may be of the new process";

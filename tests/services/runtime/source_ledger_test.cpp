@@ -10,7 +10,7 @@ namespace quoin::runtime {
 namespace {
 
 SourceAccount account(std::uint64_t incarnation, std::uint64_t settled, bool begins = false) {
-  return {"front", incarnation, settled, 0, begins, false};
+  return {incarnation, settled, 0, begins, false};
 }
 
 TEST(SourceLedger, WhatIsBehindTheLastScanOfAProcessIsUnsettledOnceAnotherOneIsHeard) {
