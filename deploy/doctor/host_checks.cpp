@@ -72,6 +72,17 @@ Check check_interface(const NamedInterface& interface, bool multicast,
   return {"network", Verdict::good, what + (multicast ? ", with multicast" : ""), ""};
 }
 
+Check untold(const std::string& name) {
+  return {name, Verdict::good, "not told in this container; see the host", ""};
+}
+
+/// How to give the kernel these settings, each "name=value".
+std::string sysctl(const std::vector<std::string>& settings) {
+  std::string advice = "sysctl -w";
+  for (const std::string& setting : settings) advice += " " + setting;
+  return advice + " (as root; a file in /etc/sysctl.d keeps it)";
+}
+
 }  // namespace
 
 Check check_socket_buffers(const fs::path& folder, std::uint64_t wanted) {
@@ -85,27 +96,24 @@ Check check_socket_buffers(const fs::path& folder, std::uint64_t wanted) {
     small.push_back(std::string("net.core.") + limit + " is " + std::to_string(*bytes));
     settings.push_back(std::string("net.core.") + limit + "=" + std::to_string(wanted));
   }
-  if (!known) return {name, Verdict::good, "not told in this container; see the host", ""};
+  if (!known) return untold(name);
   if (small.empty()) return {name, Verdict::good, "as large as wanted", ""};
-  std::string advice = "sysctl -w";
-  for (const std::string& setting : settings) advice += " " + setting;
   return {name, Verdict::doubtful,
           joined(small) + ", less than the " + std::to_string(wanted) +
               " bytes that participants ask for: a burst of scans can overflow them",
-          advice + " (as root; a file in /etc/sysctl.d keeps it)"};
+          sysctl(settings)};
 }
 
 Check check_reassembly(const fs::path& folder) {
   constexpr std::uint64_t wanted = 3;  // [s] what is repeated comes much earlier
   const std::string name = "lost packets";
   const auto seconds = read_number(folder / "ipfrag_time", std::dec);
-  if (!seconds) return {name, Verdict::good, "not told in this container; see the host", ""};
+  if (!seconds) return untold(name);
   if (*seconds <= wanted) return {name, Verdict::good, "soon forgotten", ""};
   return {name, Verdict::doubtful,
           "net.ipv4.ipfrag_time is " + std::to_string(*seconds) +
               ": on a link that loses packets no scan may arrive for that many seconds",
-          "sysctl -w net.ipv4.ipfrag_time=" + std::to_string(wanted) +
-              " (as root; a file in /etc/sysctl.d keeps it)"};
+          sysctl({"net.ipv4.ipfrag_time=" + std::to_string(wanted)})};
 }
 
 Checks check_network(const NetworkConfig& network, const std::vector<NamedInterface>& interfaces,

@@ -99,6 +99,12 @@ bool ScanAccounting::continues_numbers(const msg::Header& header) const {
          header.sequence_number() - source.index() > previous_->sequence_number;
 }
 
+// How a message of the same sensor stands to the one before.
+ScanAccounting::Change ScanAccounting::change_to(const msg::Header& header) const {
+  if (continues_numbers(header)) return Change::go_on;
+  return took_over(header, 0) ? Change::begin : Change::restart;
+}
+
 // Whether this is of an earlier process of the source than the present one, and was settled or is
 // older than what that one has sent: from a stage that is late.
 bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
@@ -155,6 +161,7 @@ void ScanAccounting::return_to(const msg::Header& header) {
   }
 }
 
+// `change` matters where nothing has been heard of the process yet.
 void ScanAccounting::settle(const msg::Header& header, Change change,
                             const std::vector<Loss>& losses) {
   const msg::StageTrace& source = header.trace()[0];
@@ -185,28 +192,20 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   Change change = Change::begin;
   if (!previous_) {
     first_sequence_ = header.sequence_number();
-  } else if (header.sensor() == previous_->sensor) {
-    if (follows(header)) {
-      change = Change::go_on;
-    } else {
-      return_to(header);
-      if (continues_numbers(header)) {
-        change = Change::go_on;
-      } else if (!took_over(header, 0)) {
-        change = Change::restart;
-      }
-      if ((change == Change::go_on && header.sequence_number() <= previous_->sequence_number) ||
-          repeats_earlier_source(header)) {
-        ++duplicates_;
-        last_was_duplicate_ = true;
-        return losses;
-      }
-      if (change != Change::begin) losses = losses_before(header, change == Change::go_on);
-      for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
-      if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
-        if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
-        earlier_.push_back(*previous_);
-      }
+  } else if (header.sensor() == previous_->sensor && !follows(header)) {
+    return_to(header);
+    change = change_to(header);
+    if ((change == Change::go_on && header.sequence_number() <= previous_->sequence_number) ||
+        repeats_earlier_source(header)) {
+      ++duplicates_;
+      last_was_duplicate_ = true;
+      return losses;
+    }
+    if (change != Change::begin) losses = losses_before(header, change == Change::go_on);
+    for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
+    if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
+      if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
+      earlier_.push_back(*previous_);
     }
   }
   settle(header, change, losses);

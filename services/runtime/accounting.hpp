@@ -87,6 +87,7 @@ class ScanAccounting {
   enum class Change;
 
   [[nodiscard]] bool continues_numbers(const msg::Header& header) const;
+  [[nodiscard]] Change change_to(const msg::Header& header) const;
   [[nodiscard]] bool repeats_earlier_source(const msg::Header& header) const;
   [[nodiscard]] bool took_over(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] bool follows(const msg::Header& header) const;

@@ -36,6 +36,12 @@ std::string chain(const std::string& source_parameters) {
          "  - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}\n";
 }
 
+/// Whether another process of the service than that of `before` publishes, and has for a second.
+bool is_back(StatusRecorder& status, const std::string& service, std::uint64_t before) {
+  return status.wait_for(
+      service, [&](const auto& s) { return s.incarnation() != before && s.published() > 50; });
+}
+
 TEST(Up, RunsAFiniteSourceToItsEndAndSumsUp) {
   const TestDeployment deployment(chain("rate_hz: 50, scans: 200"));
   Process up = deployment.quoin({"up", "FILE", "--json"});
@@ -108,9 +114,7 @@ TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 50; }));
   const auto first = status.latest("walls");
   ASSERT_EQ(kill(static_cast<pid_t>(first.pid()), SIGKILL), 0);
-  ASSERT_TRUE(status.wait_for("walls", [&](const auto& s) {
-    return s.incarnation() != first.incarnation() && s.published() > 50;
-  }));
+  ASSERT_TRUE(is_back(status, "walls", first.incarnation()));
   up.signal(SIGINT);
   ASSERT_EQ(up.wait(30s), 0) << up.errors();
   EXPECT_THAT(up.errors(), HasSubstr("walls"));
@@ -134,9 +138,7 @@ TEST(Up, AHungServiceHoldsUpARestartedOneForAShortTimeOnly) {
   const auto walls = status.latest("walls");
   ASSERT_EQ(kill(hung, SIGSTOP), 0);
   ASSERT_EQ(kill(static_cast<pid_t>(walls.pid()), SIGKILL), 0);
-  ASSERT_TRUE(status.wait_for("walls", [&](const auto& s) {
-    return s.incarnation() != walls.incarnation() && s.published() > 50;
-  }));
+  ASSERT_TRUE(is_back(status, "walls", walls.incarnation()));
   ASSERT_EQ(kill(hung, SIGCONT), 0);
   up.signal(SIGINT);
   EXPECT_EQ(up.wait(30s), 0) << up.errors();
@@ -154,24 +156,20 @@ TEST(Up, CountsTheScansOfASourceThatLivedAndDiedWhileAReaderHeardNothing) {
   const auto kill_newest = [&](const std::string& service, int signal) {
     ASSERT_EQ(kill(static_cast<pid_t>(status.latest(service).pid()), signal), 0);
   };
-  const auto has_published = [&](const std::string& service, std::uint64_t before,
-                                 std::uint64_t scans) {
-    return status.wait_for(
-        service, [&](const auto& s) { return s.incarnation() != before && s.published() > scans; });
-  };
-  ASSERT_TRUE(has_published("corners", 0, 50));
-  ASSERT_TRUE(has_published("more_corners", 0, 50));
+  for (const char* name : {"corners", "more_corners"}) {
+    ASSERT_TRUE(status.wait_for(name, [](const auto& s) { return s.published() > 50; }));
+  }
 
   kill_newest("more_corners", SIGSTOP);
   for (int killed = 0; killed < 2; ++killed) {
     const std::uint64_t front = status.latest("front").incarnation();
     kill_newest("front", SIGKILL);
-    ASSERT_TRUE(has_published("front", front, 50));
+    ASSERT_TRUE(is_back(status, "front", front));
   }
   // Nor do the stages that lived all the time, by the numbers of their results, tell what was made.
   const std::uint64_t corners = status.latest("more_corners").incarnation();
   for (const char* service : {"walls", "utls", "more_corners"}) kill_newest(service, SIGKILL);
-  ASSERT_TRUE(has_published("more_corners", corners, 50));
+  ASSERT_TRUE(is_back(status, "more_corners", corners));
 
   up.signal(SIGINT);
   ASSERT_EQ(up.wait(30s), 0) << up.errors();

@@ -13,10 +13,16 @@ SourceAccount account(std::uint64_t incarnation, std::uint64_t settled, bool beg
   return {incarnation, settled, 0, begins, false};
 }
 
-TEST(SourceLedger, WhatIsBehindTheLastScanOfAProcessIsUnsettledOnceAnotherOneIsHeard) {
+/// Of processes that started at 10, 20, ... and have published this.
+SourceLedger ledger_of(const std::vector<std::uint64_t>& published) {
   SourceLedger ledger;
-  ledger.add(10, {0, 100, 0});
-  ledger.add(20, {0, 50, 0});
+  std::uint64_t incarnation = 0;
+  for (const std::uint64_t scans : published) ledger.add(incarnation += 10, {0, scans, 0});
+  return ledger;
+}
+
+TEST(SourceLedger, WhatIsBehindTheLastScanOfAProcessIsUnsettledOnceAnotherOneIsHeard) {
+  SourceLedger ledger = ledger_of({100, 50});
   EXPECT_EQ(ledger.published(), 150U);
   EXPECT_EQ(ledger.unsettled({account(10, 90, true)}, false), 0U) << "they may come";
   EXPECT_EQ(ledger.unsettled({account(10, 90, true), account(20, 5)}, false), 10U);
@@ -41,9 +47,7 @@ TEST(SourceLedger, WhatTheSourceLostItselfBehindTheLastScanIsUnsettledToo) {
 }
 
 TEST(SourceLedger, LearnsFromOneReaderWhatNobodyTold) {
-  SourceLedger ledger;
-  ledger.add(10, {0, 100, 0});
-  ledger.add(20, {0, 5, 0});
+  SourceLedger ledger = ledger_of({100, 5});
   const std::vector<SourceAccount> knows{account(10, 130, true), account(20, 5)};
   const std::vector<SourceAccount> does_not{account(10, 70, true), account(20, 5)};
   ledger.learn({&knows, &does_not});
@@ -53,10 +57,7 @@ TEST(SourceLedger, LearnsFromOneReaderWhatNobodyTold) {
 }
 
 TEST(SourceLedger, LossesBehindTheLastScanMayBeOfAProcessThatWasNeverHeard) {
-  SourceLedger ledger;
-  ledger.add(10, {0, 100, 0});
-  ledger.add(20, {0, 50, 0});
-  ledger.add(30, {0, 7, 0});
+  SourceLedger ledger = ledger_of({100, 50, 7});
   const std::vector<SourceAccount> accounts{account(10, 140, true), account(30, 2)};
   ledger.learn({&accounts});
   EXPECT_EQ(ledger.published(), 157U);
@@ -64,10 +65,7 @@ TEST(SourceLedger, LossesBehindTheLastScanMayBeOfAProcessThatWasNeverHeard) {
 }
 
 TEST(SourceLedger, LearnsNothingTwice) {
-  SourceLedger ledger;
-  ledger.add(10, {0, 100, 0});
-  ledger.add(20, {0, 5, 0});
-  ledger.add(30, {0, 7, 0});
+  SourceLedger ledger = ledger_of({100, 5, 7});
   const std::vector<SourceAccount> wide{account(10, 120, true), account(30, 2)};
   const std::vector<SourceAccount> narrow{account(10, 100, true), account(20, 20), account(30, 2)};
   ledger.learn({&wide, &narrow});
@@ -75,9 +73,7 @@ TEST(SourceLedger, LearnsNothingTwice) {
 }
 
 TEST(SourceLedger, NobodyCanTellWhatWasLostBetweenSourcesThatAreNotComparable) {
-  SourceLedger ledger;
-  ledger.add(10, {0, 100, 0});
-  ledger.add(20, {0, 50, 0});
+  SourceLedger ledger = ledger_of({100, 50});
   EXPECT_EQ(ledger.unsettled({account(10, 90, true), account(20, 5, true)}, false), 0U);
   SourceAccount handed_over = account(10, 90, true);
   handed_over.handed_over = true;
