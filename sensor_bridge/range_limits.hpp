@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/corners/corner_finder.hpp"
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 #include "core/sensor/points.hpp"
 
 namespace quoin {

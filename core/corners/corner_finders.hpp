@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/corners/adjacent.hpp"
-#include "core/methods/method_list.hpp"
+#include "core/parameters/method_list.hpp"
 
 namespace quoin {
 

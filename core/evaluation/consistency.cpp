@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/evaluation/cramer_rao.hpp"
-#include "core/evaluation/order_statistics.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "core/geometry/corner.hpp"
 
 namespace quoin {

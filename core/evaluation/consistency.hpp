@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/evaluation/interval.hpp"
+#include "core/statistics/interval.hpp"
 #include "core/evaluation/scene.hpp"
 #include "core/fitting/fit.hpp"
 

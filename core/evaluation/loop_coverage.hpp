@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/evaluation/extraction.hpp"
-#include "core/evaluation/interval.hpp"
+#include "core/extraction/extraction.hpp"
+#include "core/statistics/interval.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "core/simulation/world.hpp"
 

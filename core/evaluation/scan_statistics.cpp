@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/evaluation/order_statistics.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 

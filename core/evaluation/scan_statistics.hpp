@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/evaluation/extraction.hpp"
+#include "core/extraction/extraction.hpp"
 
 namespace quoin {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/evaluation/interval.hpp"
+#include "core/statistics/interval.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "core/simulation/world.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/geometry/line.hpp"
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 #include "core/sensor/points.hpp"
 #include "core/sensor/sensor_model.hpp"
 

@@ -11,7 +11,7 @@
 #include "core/fitting/utls.hpp"
 #include "core/fitting/wctls.hpp"
 #include "core/fitting/wtls.hpp"
-#include "core/methods/method_list.hpp"
+#include "core/parameters/method_list.hpp"
 
 namespace quoin {
 

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin {
 

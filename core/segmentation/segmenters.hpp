@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/methods/method_list.hpp"
+#include "core/parameters/method_list.hpp"
 #include "core/segmentation/expectation_maximization.hpp"
 #include "core/segmentation/hierarchical.hpp"
 #include "core/segmentation/hough.hpp"

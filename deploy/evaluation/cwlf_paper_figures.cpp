@@ -7,11 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "deploy/drawing/plot.hpp"
-#include "deploy/drawing/svg.hpp"
+#include "deploy/evaluation/drawing/plot.hpp"
+#include "deploy/evaluation/drawing/svg.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/paper_corners.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

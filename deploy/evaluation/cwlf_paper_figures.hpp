@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/evaluation/cwlf_paper.hpp"
-#include "core/evaluation/published_figures.hpp"
+#include "core/evaluation/papers/cwlf_paper.hpp"
+#include "core/evaluation/papers/published_figures.hpp"
 #include "deploy/evaluation/html.hpp"
 
 namespace quoin::deploy {

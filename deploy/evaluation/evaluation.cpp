@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

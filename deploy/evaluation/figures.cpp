@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/figures.hpp"
 
-#include "deploy/drawing/svg.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/evaluation/drawing/svg.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

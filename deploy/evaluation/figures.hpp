@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/evaluation/consistency.hpp"
-#include "core/evaluation/interval.hpp"
+#include "core/statistics/interval.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/sensor_model.hpp"
-#include "deploy/drawing/plot.hpp"
+#include "deploy/evaluation/drawing/plot.hpp"
 
 namespace quoin::deploy {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/html.hpp"
 
-#include "deploy/drawing/svg.hpp"
+#include "deploy/evaluation/drawing/svg.hpp"
 
 namespace quoin::deploy {
 

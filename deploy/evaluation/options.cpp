@@ -6,10 +6,10 @@
 #include <filesystem>
 
 #include "core/fitting/fitters.hpp"
-#include "core/methods/suggestion.hpp"
+#include "core/parameters/suggestion.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "sensor_bridge/replay/scan_files.hpp"
+#include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
 
 namespace quoin::deploy {

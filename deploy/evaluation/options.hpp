@@ -12,7 +12,7 @@
 #include "core/fitting/fit.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/simulation/world.hpp"
-#include "sensor_bridge/replay/recorded_scan.hpp"
+#include "sensor_bridge/recordings/recorded_scan.hpp"
 
 namespace quoin::deploy {
 

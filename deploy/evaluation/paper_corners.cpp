@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/evaluation/order_statistics.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/pictures.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

@@ -12,9 +12,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/corners/corner_finder.hpp"
-#include "core/evaluation/paper_corners.hpp"
-#include "core/evaluation/published_figures.hpp"
-#include "deploy/drawing/drawing.hpp"
+#include "core/evaluation/papers/paper_corners.hpp"
+#include "core/evaluation/papers/published_figures.hpp"
+#include "deploy/evaluation/drawing/drawing.hpp"
 #include "deploy/evaluation/html.hpp"
 
 namespace quoin::deploy {

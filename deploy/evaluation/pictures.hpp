@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "core/evaluation/extraction.hpp"
+#include "core/extraction/extraction.hpp"
 #include "core/geometry/corner.hpp"
-#include "deploy/drawing/drawing.hpp"
+#include "deploy/evaluation/drawing/drawing.hpp"
 
 namespace quoin::deploy {
 

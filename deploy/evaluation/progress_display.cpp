@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/evaluation/consistency.hpp"
-#include "core/evaluation/extraction.hpp"
+#include "core/extraction/extraction.hpp"
 #include "core/evaluation/fit_timing.hpp"
-#include "core/evaluation/wctls_paper.hpp"
+#include "core/evaluation/papers/wctls_paper.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

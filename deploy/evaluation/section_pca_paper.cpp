@@ -6,12 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/evaluation/order_statistics.hpp"
-#include "core/evaluation/pca_paper.hpp"
+#include "core/statistics/order_statistics.hpp"
+#include "core/evaluation/papers/pca_paper.hpp"
 #include "core/geometry/angle.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

@@ -9,11 +9,11 @@
 #include "core/corners/corner_finders.hpp"
 #include "core/evaluation/scan_statistics.hpp"
 #include "core/evaluation/stopwatch.hpp"
-#include "deploy/drawing/drawing.hpp"
+#include "deploy/evaluation/drawing/drawing.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/pictures.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

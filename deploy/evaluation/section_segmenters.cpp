@@ -7,14 +7,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/evaluation/extraction.hpp"
+#include "core/extraction/extraction.hpp"
 #include "core/evaluation/segmentation_quality.hpp"
 #include "core/evaluation/stopwatch.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/simulation/cluttered_room.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

@@ -10,7 +10,7 @@
 #include "deploy/evaluation/paper_corners.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/evaluation/wctls_paper_figures.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

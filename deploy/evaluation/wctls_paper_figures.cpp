@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/evaluation/order_statistics.hpp"
-#include "deploy/drawing/plot.hpp"
+#include "core/statistics/order_statistics.hpp"
+#include "deploy/evaluation/drawing/plot.hpp"
 #include "deploy/evaluation/paper_corners.hpp"
-#include "deploy/report/table.hpp"
+#include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
 

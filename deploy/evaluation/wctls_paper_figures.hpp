@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "core/evaluation/published_figures.hpp"
-#include "core/evaluation/wctls_paper.hpp"
+#include "core/evaluation/papers/published_figures.hpp"
+#include "core/evaluation/papers/wctls_paper.hpp"
 #include "deploy/evaluation/html.hpp"
 
 namespace quoin::deploy {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "deploy/deployment/kinds.hpp"
-#include "sensor_bridge/rplidar/parameters.hpp"
-#include "sensor_bridge/rplidar/transport/endpoint.hpp"
+#include "services/deployment/kinds.hpp"
+#include "sensor_bridge/rplidar/service/parameters.hpp"
+#include "sensor_bridge/transport/endpoint.hpp"
 
 namespace quoin::deploy {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/deployment/deployment.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 
@@ -41,7 +41,7 @@ struct ExportPlan {
 };
 
 /// The share of `host`, "" for a deployment that names no hosts; with its discovery servers, if
-/// there are any. Throws sensor_bridge::rplidar::EndpointError for a device that is none.
+/// there are any. Throws sensor_bridge::EndpointError for a device that is none.
 [[nodiscard]] ExportPlan plan_export(const Deployment& deployment, const std::string& host,
                                      bool discovery_servers = false);
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "sensor_bridge/replay/recorded_scan.hpp"
+#include "sensor_bridge/recordings/recorded_scan.hpp"
 
 namespace quoin::sensor_bridge {
 

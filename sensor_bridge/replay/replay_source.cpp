@@ -9,7 +9,7 @@
 
 #include "sensor_bridge/replay/parameters.hpp"
 #include "sensor_bridge/replay/playback.hpp"
-#include "sensor_bridge/replay/scan_files.hpp"
+#include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
 
 namespace quoin::sensor_bridge {
@@ -58,7 +58,7 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
 
 }  // namespace
 
-std::function<void(runtime::Source&)> open_replay(const deploy::ServiceConfig& config,
+std::function<void(runtime::Source&)> open_replay(const ServiceConfig& config,
                                                   const std::filesystem::path& base_directory) {
   const auto parameters = make_parameters<ReplayParameters>(config.parameters);
   // Shared only because std::function must be copyable.

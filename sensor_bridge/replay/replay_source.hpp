@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "services/runtime/source.hpp"
+#include "services/runtime/node/source.hpp"
 
 namespace quoin::sensor_bridge {
 
@@ -17,6 +17,6 @@ namespace quoin::sensor_bridge {
 /// have no known epoch, and ages and latencies downstream must make sense. Duration is 0 and time
 /// offsets are empty, for the files do not tell them.
 [[nodiscard]] std::function<void(runtime::Source&)> open_replay(
-    const deploy::ServiceConfig& config, const std::filesystem::path& base_directory);
+    const ServiceConfig& config, const std::filesystem::path& base_directory);
 
 }  // namespace quoin::sensor_bridge

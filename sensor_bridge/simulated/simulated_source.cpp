@@ -10,7 +10,7 @@
 #include "sensor_bridge/simulated/revolution_timer.hpp"
 #include "sensor_bridge/simulated/scanner_settings.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
-#include "services/runtime/clock.hpp"
+#include "services/runtime/process/clock.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -39,7 +39,7 @@ void publish_scans(SimulatedScanner scanner, const SimulatedParameters& paramete
 
 }  // namespace
 
-std::function<void(runtime::Source&)> open_simulated(const deploy::ServiceConfig& config,
+std::function<void(runtime::Source&)> open_simulated(const ServiceConfig& config,
                                                      const std::filesystem::path& base_directory) {
   const auto parameters = make_parameters<SimulatedParameters>(config.parameters);
   SimulatedScanner scanner(load_world(parameters.environment, base_directory),

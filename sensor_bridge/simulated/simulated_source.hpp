@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <functional>
 
-#include "services/runtime/source.hpp"
+#include "services/runtime/node/source.hpp"
 
 namespace quoin::sensor_bridge {
 
 /// Opens the world and returns the body that publishes its scans in real time, each at the end of
 /// its revolution. Throws ParameterError or WorldError.
 [[nodiscard]] std::function<void(runtime::Source&)> open_simulated(
-    const deploy::ServiceConfig& config, const std::filesystem::path& base_directory);
+    const ServiceConfig& config, const std::filesystem::path& base_directory);
 
 }  // namespace quoin::sensor_bridge

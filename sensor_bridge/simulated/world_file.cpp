@@ -13,9 +13,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "core/methods/suggestion.hpp"
-#include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/number.hpp"
+#include "core/parameters/suggestion.hpp"
+#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/recordings/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

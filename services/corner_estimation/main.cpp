@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "core/corners/corner_finders.hpp"
-#include "services/messages/corners.hpp"
-#include "services/messages/lines.hpp"
-#include "services/runtime/stage.hpp"
+#include "services/topics/corners.hpp"
+#include "services/topics/lines.hpp"
+#include "services/runtime/node/stage.hpp"
 
 using namespace quoin;
 
@@ -22,9 +22,9 @@ runtime::Process<msg::Lines, msg::Corners> make(const std::string& method,
   auto work = std::make_shared<Workspace>();
   work->find = CornerFinders::make<CornerFinder>(method, parameters);
   return [work](const msg::Lines& in, msg::Corners& out) -> std::size_t {
-    messages::line_segments(in, work->lines);
+    topics::line_segments(in, work->lines);
     work->find(work->lines, in.sensor_model().range_bias_stddev(), work->corners);
-    messages::fill_corners(work->corners, in.covariance_mode(), out);
+    topics::fill_corners(work->corners, in.covariance_mode(), out);
     return 0;
   };
 }

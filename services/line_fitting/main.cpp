@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "core/fitting/fitters.hpp"
-#include "services/messages/lines.hpp"
-#include "services/messages/segments.hpp"
-#include "services/runtime/stage.hpp"
+#include "services/topics/lines.hpp"
+#include "services/topics/segments.hpp"
+#include "services/runtime/node/stage.hpp"
 
 using namespace quoin;
 
@@ -18,8 +18,8 @@ runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
   const std::string mode = Fitters::setting(method, parameters, "covariance");
   auto points = std::make_shared<Points>();
   return [fit, mode, points](const msg::Segments& in, msg::Lines& out) {
-    if (!messages::valid(in)) throw std::invalid_argument("index ranges outside the points");
-    const SensorModel sensor = messages::sensor_model(in.sensor_model());
+    if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
+    const SensorModel sensor = topics::sensor_model(in.sensor_model());
     convert_ordered(in.bearings(), in.ranges(), *points);
     out.sensor_model(in.sensor_model());
     out.covariance_mode(mode);
@@ -30,9 +30,9 @@ runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
           points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
       const FitResult result = fit(segment, sensor);
       if (result.ok()) {
-        messages::append_line(result.estimate, segment, sensor, i, out);
+        topics::append_line(result.estimate, segment, sensor, i, out);
       } else {
-        messages::append_failure(result.failure, i, out);
+        topics::append_failure(result.failure, i, out);
       }
     }
     return out.failures().size();

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "core/segmentation/segmenters.hpp"
-#include "services/messages/segments.hpp"
-#include "services/runtime/stage.hpp"
+#include "services/topics/segments.hpp"
+#include "services/runtime/node/stage.hpp"
 
 using namespace quoin;
 
@@ -21,9 +21,9 @@ runtime::Process<msg::Scan, msg::Segments> make(const std::string& method,
   auto work = std::make_shared<Workspace>();
   work->segment = Segmenters::make<Segmenter>(method, parameters);
   return [work](const msg::Scan& scan, msg::Segments& out) -> std::size_t {
-    convert(messages::scan_view(scan), work->points);
-    work->segment(work->points, messages::sensor_model(scan.sensor_model()), work->segments);
-    messages::fill_segments(scan, work->points, work->segments, out);
+    convert(topics::scan_view(scan), work->points);
+    work->segment(work->points, topics::sensor_model(scan.sensor_model()), work->segments);
+    topics::fill_segments(scan, work->points, work->segments, out);
     return work->segments.empty() ? 1 : 0;  // a scan without any line is counted
   };
 }

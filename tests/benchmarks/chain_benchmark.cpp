@@ -26,10 +26,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/simulation/scanner.hpp"
-#include "services/messages/segments.hpp"
-#include "services/runtime/clock.hpp"
-#include "services/runtime/reader.hpp"
-#include "services/runtime/writer.hpp"
+#include "services/topics/segments.hpp"
+#include "services/runtime/process/clock.hpp"
+#include "services/runtime/dds/reader.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
@@ -61,7 +61,7 @@ std::vector<msg::Scan> make_scans() {
     scan.ranges(simulated.ranges);
     scan.range_min(0.1F);
     scan.range_max(40.0F);
-    scan.sensor_model(messages::sensor_model_message(SensorModel{}));
+    scan.sensor_model(topics::sensor_model_message(SensorModel{}));
     scan.header().sensor("front");
     scan.header().frame("laser");
     scan.header().trace().resize(1);
@@ -297,7 +297,7 @@ class RequestFlood {
  public:
   RequestFlood(int domain, const std::string& name_space)
       : participant_({domain, "flood"}),
-        writer_(participant_, deploy::control_request_topic(name_space),
+        writer_(participant_, control_request_topic(name_space),
                 runtime::QosPreset::control) {
     if (!writer_.wait_for_readers(3, 20s)) throw std::runtime_error("no service takes requests");
     thread_ = std::thread([this] { run(); });

@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/clock.hpp"
+#include "services/runtime/process/clock.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/keys.hpp"
@@ -47,7 +47,7 @@ void measure(const std::string& head, std::chrono::seconds span, Cost& cost) {
 )",
                                          head);
   if (deployment.deployment().security) tests::make_keys(deployment);
-  runtime::Participant participant(deployment.participant(std::string(deploy::operator_identity)));
+  runtime::Participant participant(deployment.participant(std::string(operator_identity)));
   runtime::Reader<msg::Corners> reader(
       participant, deployment.topic("corners"),
       runtime::output_qos(deployment.deployment().service("corners")));

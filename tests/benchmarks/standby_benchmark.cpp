@@ -18,9 +18,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/accounting.hpp"
-#include "services/runtime/participant.hpp"
-#include "services/runtime/reader.hpp"
+#include "services/runtime/accounting/accounting.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/reader.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/integration/harness/deployment.hpp"
 

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/clock.hpp"
-#include "services/runtime/writer.hpp"
+#include "services/runtime/process/clock.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/temporary_folder.hpp"
 

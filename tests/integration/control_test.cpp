@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/writer.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
@@ -34,9 +34,9 @@ class Control : public testing::Test {
                     head),
         participant_(deployment_.participant("test")),
         recorder_(participant_, deployment_, "corners"),
-        requests_(participant_, deploy::control_request_topic(deployment_.deployment().name_space),
+        requests_(participant_, control_request_topic(deployment_.deployment().name_space),
                   runtime::QosPreset::control),
-        replies_(participant_, deploy::control_reply_topic(deployment_.deployment().name_space),
+        replies_(participant_, control_reply_topic(deployment_.deployment().name_space),
                  runtime::QosPreset::control) {
     for (const auto& service : deployment_.deployment().services)
       processes_.push_back(deployment_.start(service.name));

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "deploy/quoin/message_json.hpp"
+#include "services/topics/message_json.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
@@ -54,7 +54,7 @@ void expect_same(const std::vector<json>& theirs, const std::vector<T>& ours) {
   ASSERT_EQ(theirs.size(), ours.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {
     EXPECT_EQ(ours[i].header().sequence_number(), i);
-    const json expected = deploy::to_json(ours[i]);
+    const json expected = topics::to_json(ours[i]);
     EXPECT_TRUE(theirs[i] == expected) << json::diff(expected, theirs[i]).dump();
   }
 }
@@ -104,7 +104,7 @@ TEST_F(Interoperability, CycloneReadsEveryFieldOfEveryMessageOfTheChain) {
   EXPECT_GE(our_corners.messages().back().corners().size(), 4U) << "a room has four corners";
 
   // Who comes late gets the latest heartbeat of every service that is alive; the source has ended.
-  const std::string status = deploy::status_topic(deployment.deployment().name_space);
+  const std::string status = status_topic(deployment.deployment().name_space);
   const Process late("cyclone_reader", {arguments[0], "1000", status},
                      deployment.directory().path());
   std::map<std::string, json> latest;

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/writer.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/integration/harness/hosts.hpp"
 #include "tests/integration/harness/keys.hpp"
@@ -156,7 +156,7 @@ class Robot {
   [[nodiscard]] runtime::ParticipantConfig take_part() const {
     if (!deployment_.deployment().security) return deployment_.participant("test");
     tests::make_keys(deployment_);
-    return deployment_.participant(std::string(deploy::operator_identity));
+    return deployment_.participant(std::string(operator_identity));
   }
 
   Hosts hosts_;
@@ -449,7 +449,7 @@ TEST_F(Network, ALosslessWriterGoesOnWhenTheLeaseOfAReaderThatWasCutHasEnded) {
   const Hosts hosts({"lidar", "base"});
   runtime::ParticipantConfig config{1, "test"};
   config.network.interfaces = {"eth0"};
-  config.network.discovery = deploy::Discovery::multicast;
+  config.network.discovery = Discovery::multicast;
   config.network.lease = 2.0;
   runtime::Participant near(config);
   runtime::Writer<msg::ServiceStatus> writer(near, "scan", runtime::QosPreset::lossless);

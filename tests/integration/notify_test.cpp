@@ -10,8 +10,8 @@
 
 #include <gmock/gmock.h>
 
-#include "services/runtime/stage.hpp"
-#include "services/runtime/writer.hpp"
+#include "services/runtime/node/stage.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/services/runtime/notify_socket.hpp"
 

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/reader.hpp"
-#include "services/runtime/writer.hpp"
+#include "services/runtime/dds/reader.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/keys.hpp"
 
 namespace quoin {
@@ -47,7 +47,7 @@ class ClosedDeployment : public TestDeployment {
   [[nodiscard]] runtime::ParticipantConfig intruder(
       const std::string& name, const std::optional<std::filesystem::path>& folder) const {
     runtime::ParticipantConfig config{deployment().domain, name, {}};
-    if (folder) config.security = deploy::SecurityConfig{*folder, true};
+    if (folder) config.security = SecurityConfig{*folder, true};
     config.identity = name;
     return config;
   }
@@ -61,7 +61,7 @@ class Intruder {
       : name_(name),
         participant_(deployment.intruder(name, folder)),
         scans_(participant_, deployment.name_space() + front_topic, runtime::QosPreset::sensor),
-        requests_(participant_, deploy::control_request_topic(deployment.name_space()),
+        requests_(participant_, control_request_topic(deployment.name_space()),
                   runtime::QosPreset::control),
         corners_(participant_, deployment.name_space() + corners_topic,
                  runtime::QosPreset::feature) {}
@@ -100,7 +100,7 @@ class Intruder {
 /// A participant whose certificate is valid when it starts, as Fast DDS asks for, and no longer
 /// when this returns.
 std::unique_ptr<Intruder> expired_intruder(const ClosedDeployment& deployment,
-                                           const deploy::TopicRule& rule) {
+                                           const TopicRule& rule) {
   for (auto span = 2s; span < 60s; span *= 2) {  // longer on a machine that is busy
     const auto now = std::chrono::system_clock::now();
     const auto end = now + span;
@@ -180,9 +180,9 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   const ClosedDeployment deployment;
   const std::string name_space = deployment.name_space();
   const int domain = deployment.deployment().domain;
-  const deploy::TopicRule everything{domain, {name_space + "/*"}, {name_space + "/*"}};
+  const TopicRule everything{domain, {name_space + "/*"}, {name_space + "/*"}};
   const auto other_keys = deployment.directory().path() / "other";
-  deploy::make_key_directory(other_keys, tests::days_of_keys, false);
+  make_key_directory(other_keys, tests::days_of_keys, false);
   tests::add_keys(other_keys, "other_authority", {everything});
   tests::add_keys(deployment.keys(), "revoked", {everything});
   // Fast DDS looks up its own permissions without regard to the domain, but those of others with:
@@ -200,7 +200,7 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   add("revoked", deployment.keys());
   add("foreign_topic", deployment.keys());
   intruders.push_back(expired_intruder(deployment, everything));
-  deploy::revoke_identity(deployment.keys(), deploy::load_authority(deployment.keys()), "revoked");
+  revoke_identity(deployment.keys(), load_authority(deployment.keys()), "revoked");
 
   runtime::Participant participant(deployment.participant("quoin-operator"));
   CornerRecorder recorder(participant, deployment, "corners");
@@ -268,7 +268,7 @@ TEST(Security, TheOperatorChangesAndTheObserverLooks) {
 
   runtime::Participant observer(deployment.participant("quoin-observer"));
   EXPECT_THROW(runtime::Writer<msg::ControlRequest>(
-                   observer, deploy::control_request_topic(deployment.name_space()),
+                   observer, control_request_topic(deployment.name_space()),
                    runtime::QosPreset::control),
                std::runtime_error);
 }
@@ -299,11 +299,11 @@ TEST(Security, TheCommandMakesKeysAndNothingStartsWithoutThem) {
               testing::Pair(1, HasSubstr("--force")));
   EXPECT_THAT(quoin({"keys", "permissions", keys, "FILE"}),
               testing::Pair(0, HasSubstr("signed the permissions of 6 identities")));
-  for (const std::string& identity : deploy::identities_of(deployment.deployment())) {
+  for (const std::string& identity : identities_of(deployment.deployment())) {
     EXPECT_NO_THROW((void)deployment.participant(identity)) << identity;
   }
   EXPECT_THAT(quoin({"keys", "revoke", keys, "walls"}), testing::Pair(0, HasSubstr("revoked.pem")));
-  EXPECT_THROW((void)deployment.participant("walls"), deploy::DeploymentError);
+  EXPECT_THROW((void)deployment.participant("walls"), DeploymentError);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "services/runtime/source.hpp"
+#include "services/runtime/node/source.hpp"
 
 namespace quoin::tests {
 
@@ -41,8 +41,8 @@ class RecordingSource : public runtime::Source {
 };
 
 /// The configuration of a source with these parameters.
-inline deploy::ServiceConfig source_config(ParameterSettings parameters) {
-  deploy::ServiceConfig config;
+inline ServiceConfig source_config(ParameterSettings parameters) {
+  ServiceConfig config;
   config.parameters = std::move(parameters);
   return config;
 }

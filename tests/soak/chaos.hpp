@@ -16,8 +16,8 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "services/runtime/reader.hpp"
-#include "services/runtime/writer.hpp"
+#include "services/runtime/dds/reader.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 namespace quoin::soak {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "sensor_bridge/rplidar/transport/transport_error.hpp"
+#include "sensor_bridge/transport/transport_error.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "sensor_bridge/rplidar/transport/endpoint.hpp"
+#include "sensor_bridge/transport/endpoint.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

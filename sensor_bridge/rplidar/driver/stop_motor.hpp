@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "sensor_bridge/rplidar/transport/transport.hpp"
+#include "sensor_bridge/transport/transport.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

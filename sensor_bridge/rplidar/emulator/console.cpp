@@ -10,7 +10,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/fault.hpp"
 
 namespace quoin::sensor_bridge::rplidar {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/emulated_device.hpp"
 #include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
 #include "sensor_bridge/rplidar/emulator/garbler.hpp"

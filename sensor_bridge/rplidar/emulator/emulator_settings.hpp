@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/methods/parameter.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/methods/suggestion.hpp"
-#include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/number.hpp"
+#include "core/parameters/suggestion.hpp"
+#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/recordings/number.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/methods/suggestion.hpp"
-#include "sensor_bridge/excerpt.hpp"
+#include "core/parameters/suggestion.hpp"
+#include "sensor_bridge/recordings/excerpt.hpp"
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 #include "sensor_bridge/rplidar/emulator/tcp_server.hpp"
 #include "sensor_bridge/rplidar/emulator/udp_server.hpp"

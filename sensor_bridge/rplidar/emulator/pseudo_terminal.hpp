@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
 
 namespace quoin::sensor_bridge::rplidar {

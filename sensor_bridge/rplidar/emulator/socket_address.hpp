@@ -6,7 +6,7 @@
 #include <string>
 #include <sys/socket.h>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
 #include "sensor_bridge/rplidar/emulator/socket_address.hpp"
 

@@ -33,7 +33,7 @@ class Reporter {
 
 }  // namespace
 
-std::function<void(runtime::Activity&)> open_emulator(const deploy::ServiceConfig& config,
+std::function<void(runtime::Activity&)> open_emulator(const ServiceConfig& config,
                                                       const std::filesystem::path& base_directory) {
   auto settings = make_parameters<EmulatorSettings>(config.parameters);
   if (!settings.link.empty()) settings.link = base_directory / settings.link;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/evaluation/wctls_paper.hpp"
+#include "core/evaluation/papers/wctls_paper.hpp"
 
 namespace quoin::deploy {
 namespace {

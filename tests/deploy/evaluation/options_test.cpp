@@ -6,7 +6,7 @@
 
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
-#include "sensor_bridge/replay/line_reader.hpp"
+#include "sensor_bridge/recordings/line_reader.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
 #include "tests/sensor_bridge/error_of.hpp"
 #include "tests/temporary_folder.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/harness/deployment.hpp"
 
-#include "deploy/deployment/kinds.hpp"
+#include "services/deployment/kinds.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 
 namespace quoin::tests {
@@ -11,7 +11,7 @@ TestDeployment::TestDeployment(const std::string& services, const std::string& h
     : head_("version: 1\nnamespace: " + test_namespace() +
             "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
       file_(write("deployment.yaml", services)),
-      deployment_(deploy::load_deployment(file_)) {}
+      deployment_(load_deployment(file_)) {}
 
 std::filesystem::path TestDeployment::write(const std::string& name,
                                             const std::string& services) const {
@@ -19,7 +19,7 @@ std::filesystem::path TestDeployment::write(const std::string& name,
 }
 
 Process TestDeployment::start(const std::string& service, int observers) const {
-  const deploy::KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);
+  const KindInfo* kind = find_kind(deployment_.service(service).kind);
   return Process(kind->program,
                  {"--deployment", file_.string(), "--service", service, "--observers",
                   std::to_string(observers)},
@@ -34,7 +34,7 @@ Process TestDeployment::quoin(std::vector<std::string> arguments) const {
 }
 
 StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)
-    : reader_(participant, deploy::status_topic(deployment.deployment().name_space),
+    : reader_(participant, status_topic(deployment.deployment().name_space),
               runtime::QosPreset::state) {}
 
 void StatusRecorder::poll() {

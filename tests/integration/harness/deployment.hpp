@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "deploy/deployment/deployment.hpp"
-#include "services/runtime/accounting.hpp"
-#include "services/runtime/participant.hpp"
-#include "services/runtime/reader.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/runtime/accounting/accounting.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/reader.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -31,9 +31,9 @@ class TestDeployment {
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const TemporaryFolder& directory() const { return directory_; }
-  [[nodiscard]] const deploy::Deployment& deployment() const { return deployment_; }
+  [[nodiscard]] const Deployment& deployment() const { return deployment_; }
   [[nodiscard]] std::string topic(const std::string& service) const {
-    return deploy::output_topic(deployment_, deployment_.service(service));
+    return output_topic(deployment_, deployment_.service(service));
   }
   [[nodiscard]] runtime::ParticipantConfig participant(const std::string& name) const {
     return runtime::participant_config(deployment_, name);
@@ -48,7 +48,7 @@ class TestDeployment {
   TemporaryFolder directory_;
   std::string head_;
   std::filesystem::path file_;
-  deploy::Deployment deployment_;
+  Deployment deployment_;
 };
 
 /// All messages of one service, as they come.

@@ -16,7 +16,7 @@
 #include <thread>
 #include <unistd.h>
 
-#include "services/runtime/interfaces.hpp"
+#include "services/runtime/dds/interfaces.hpp"
 #include "tests/integration/harness/lossy_wire.hpp"
 #include "tests/integration/harness/process.hpp"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::tests {
 

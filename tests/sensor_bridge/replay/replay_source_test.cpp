@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/replay/line_reader.hpp"
+#include "sensor_bridge/recordings/line_reader.hpp"
 #include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"
 #include "tests/temporary_folder.hpp"

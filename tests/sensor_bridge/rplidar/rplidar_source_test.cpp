@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/rplidar/rplidar_source.hpp"
+#include "sensor_bridge/rplidar/service/rplidar_source.hpp"
 
 #include <string>
 #include <thread>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/rplidar/transport/endpoint.hpp"
+#include "sensor_bridge/transport/endpoint.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"
 #include "tests/sensor_bridge/rplidar/driver/emulator_run.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/rplidar/scan_conversion.hpp"
+#include "sensor_bridge/rplidar/service/scan_conversion.hpp"
 
 #include <cmath>
 #include <limits>

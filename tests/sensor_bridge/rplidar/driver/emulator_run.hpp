@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "sensor_bridge/rplidar/emulator/emulator.hpp"
-#include "sensor_bridge/rplidar/transport/endpoint.hpp"
+#include "sensor_bridge/transport/endpoint.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

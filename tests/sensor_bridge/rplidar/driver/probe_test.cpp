@@ -12,7 +12,7 @@
 #include "tests/sensor_bridge/rplidar/driver/driver_run.hpp"
 #include "tests/sensor_bridge/rplidar/driver/emulator_run.hpp"
 #include "tests/sensor_bridge/rplidar/driver/scripted_transport.hpp"
-#include "tests/sensor_bridge/rplidar/transport/pseudo_terminal.hpp"
+#include "tests/sensor_bridge/transport/pseudo_terminal.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

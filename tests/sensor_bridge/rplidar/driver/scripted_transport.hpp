@@ -15,7 +15,7 @@
 #include "sensor_bridge/rplidar/protocol/descriptor.hpp"
 #include "sensor_bridge/rplidar/protocol/device_info.hpp"
 #include "sensor_bridge/rplidar/protocol/request.hpp"
-#include "sensor_bridge/rplidar/transport/transport.hpp"
+#include "sensor_bridge/transport/transport.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

@@ -18,7 +18,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/file_descriptor.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "tests/sensor_bridge/rplidar/protocol/hex.hpp"
 
 namespace quoin::sensor_bridge::rplidar {

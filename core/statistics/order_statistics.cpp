@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/statistics/order_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace quoin {
+namespace {
+
+double quantile_of_sorted(const std::vector<double>& sorted, double q) {
+  if (sorted.empty()) return 0.0;
+  const double position = std::clamp(q, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double part = position - static_cast<double>(below);
+  return sorted[below] + part * (sorted[above] - sorted[below]);
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return quantile_of_sorted(values, q);
+}
+
+BoxSummary box_summary(const std::vector<double>& values) {
+  BoxSummary box;
+  if (values.empty()) return box;
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  box.first_quartile = quantile_of_sorted(sorted, 0.25);
+  box.median = quantile_of_sorted(sorted, 0.5);
+  box.third_quartile = quantile_of_sorted(sorted, 0.75);
+  const double reach = 1.5 * (box.third_quartile - box.first_quartile);
+  box.low = box.first_quartile;
+  box.high = box.third_quartile;
+  for (const double value : sorted) {
+    if (value < box.first_quartile - reach || value > box.third_quartile + reach) {
+      box.outliers.push_back(value);
+    } else {
+      box.low = std::min(box.low, value);
+      box.high = std::max(box.high, value);
+    }
+  }
+  return box;
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0.0;
+  const auto count = static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - sum / count) * (value - sum / count);
+  return std::sqrt(squares / (count - 1.0));
+}
+
+}  // namespace quoin

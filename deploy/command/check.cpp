@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "services/deployment/deployment.hpp"
+#include "deploy/command/commands.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CheckOptions {
+  std::string file;
+  bool json = false;
+};
+
+Json describe(const Deployment& deployment) {
+  Json services = Json::array();
+  for (const ServiceConfig& service : deployment.services) {
+    Json parameters = Json::object();
+    for (const ParameterSetting& setting : service.parameters)
+      parameters[setting.name] = setting.text;
+    services.push_back({{"name", label(service)},
+                        {"kind", service.kind},
+                        {"input", service.input},
+                        {"method", service.method},
+                        {"qos", service.qos},
+                        {"host", service.host},
+                        {"restart", service.restart == RestartPolicy::always ? "always" : "never"},
+                        {"topic", output_topic(deployment, service)},
+                        {"parameters", parameters}});
+  }
+  return {{"valid", true},
+          {"namespace", deployment.name_space},
+          {"domain", deployment.domain},
+          {"services", services}};
+}
+
+void print(const Deployment& deployment) {
+  std::cout << deployment.file.string() << ": valid; " << deployment.services.size()
+            << (deployment.services.size() == 1 ? " service" : " services") << " in domain "
+            << deployment.domain << '\n';
+  for (const ServiceConfig& service : deployment.services) {
+    std::cout << "  " << label(service) << ": " << service.kind;
+    if (!service.method.empty()) std::cout << '/' << service.method;
+    if (!service.host.empty()) std::cout << " on " << service.host;
+    if (!service.input.empty()) std::cout << " reads " << service.input;
+    const std::string topic = output_topic(deployment, service);
+    std::cout << (topic.empty() ? ", publishes nothing\n"
+                                : ", publishes " + topic + " (" + service.qos + ")\n");
+  }
+}
+
+int run(const CheckOptions& options) {
+  try {
+    const Deployment deployment = load_deployment(options.file);
+    if (options.json) {
+      std::cout << describe(deployment).dump(2) << '\n';
+    } else {
+      print(deployment);
+    }
+    return exit_ok;
+  } catch (const DeploymentError& error) {
+    if (!options.json) throw;
+    const Json object{{"valid", false}, {"errors", error.messages()}};
+    std::cout << object.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    return exit_configuration;
+  }
+}
+
+}  // namespace
+
+Command add_check(CLI::App& app) {
+  CLI::App* line =
+      app.add_subcommand("check", "Check a deployment file and tell everything wrong with it");
+  const auto options = std::make_shared<CheckOptions>();
+  line->add_option("file", options->file, "Deployment file (YAML)")->required();
+  line->add_flag("--json", options->json, "As a JSON object");
+  return {line, [options] { return run(*options); }};
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "services/deployment/exit_code.hpp"
+
+namespace quoin::deploy {
+
+/// A subcommand: its command line, and what to do once that has been parsed. Returns the exit code.
+struct Command {
+  CLI::App* line;
+  std::function<int()> run;
+};
+
+/// Check for options that count or last.
+[[nodiscard]] inline CLI::Validator more_than_zero() {
+  const auto check = [](std::string& text) -> std::string {
+    return std::strtod(text.c_str(), nullptr) > 0.0 ? "" : "'" + text + "' is not more than 0";
+  };
+  return {check, "> 0"};
+}
+
+[[nodiscard]] Command add_up(CLI::App& app);
+[[nodiscard]] Command add_apply(CLI::App& app);
+[[nodiscard]] Command add_check(CLI::App& app);
+[[nodiscard]] Command add_methods(CLI::App& app);
+[[nodiscard]] Command add_status(CLI::App& app);
+[[nodiscard]] Command add_echo(CLI::App& app);
+[[nodiscard]] Command add_compare(CLI::App& app);
+[[nodiscard]] Command add_draw(CLI::App& app);
+[[nodiscard]] Command add_evaluate(CLI::App& app);
+[[nodiscard]] Command add_export(CLI::App& app);
+[[nodiscard]] Command add_lidar(CLI::App& app);
+[[nodiscard]] Command add_swap(CLI::App& app);
+[[nodiscard]] Command add_set(CLI::App& app);
+[[nodiscard]] Command add_discovery(CLI::App& app);
+[[nodiscard]] Command add_doctor(CLI::App& app);
+[[nodiscard]] Command add_keys(CLI::App& app);
+[[nodiscard]] Command add_version(CLI::App& app);
+
+}  // namespace quoin::deploy

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <stdexcept>
+#include <vector>
+
+#include "services/deployment/deployment.hpp"
+#include "deploy/command/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace quoin;
+  using namespace quoin::deploy;
+  CLI::App app{"Quoin: lines and corners with trustworthy covariances from 2D LiDAR scans"};
+  app.name("quoin");
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 ok, 1 failure, 2 wrong usage or configuration, 3 input of a source unusable");
+  const std::vector<Command> commands{
+      add_up(app),     add_apply(app),   add_check(app), add_methods(app),  add_status(app),
+      add_echo(app),   add_compare(app), add_draw(app),  add_evaluate(app), add_export(app),
+      add_lidar(app),  add_swap(app),    add_set(app),   add_keys(app),     add_discovery(app),
+      add_doctor(app), add_version(app)};
+  try {
+    app.parse(argc, argv);
+    for (const Command& command : commands) {
+      if (command.line->parsed()) return command.run();
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_configuration;
+  } catch (const DeploymentError& error) {
+    std::cerr << error.what() << '\n';
+    return exit_configuration;
+  } catch (const std::out_of_range& error) {
+    std::cerr << error.what() << '\n';
+    return exit_configuration;
+  } catch (const std::exception& error) {
+    std::cerr << "quoin: " << error.what() << '\n';
+  }
+  return exit_failure;
+}

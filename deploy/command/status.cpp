@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "services/deployment/deployment.hpp"
+#include "deploy/command/commands.hpp"
+#include "deploy/observation/heartbeats.hpp"
+#include "deploy/command/network_options.hpp"
+#include "deploy/observation/summary.hpp"
+#include "deploy/observation/table.hpp"
+#include "services/runtime/process/clock.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+struct StatusOptions {
+  std::string file;
+  NetworkOptions network;
+  double wait = 2.0;  // [s]
+  bool json = false;
+};
+
+/// A line of the table, and the heartbeat it is from; none for a service that was not heard.
+struct Row {
+  ServiceFigures figures;
+  std::string name_space;
+  std::optional<msg::ServiceStatus> status;
+};
+
+Row row_of(const std::string& name_space, const msg::ServiceStatus& status) {
+  Row row{
+      {status.service(), status.kind(), status.method(), report_of(status), 0}, name_space, status};
+  row.figures.host = status.host();
+  row.figures.age = std::max(0.0, 1e-9 * static_cast<double>(runtime::now_ns() - status.stamp()));
+  return row;
+}
+
+/// The services of the deployment, then those of others; of all namespaces when there is no
+/// deployment and `one_namespace` is false.
+std::vector<Row> collect(const Deployment& deployment, bool one_namespace, double wait) {
+  HeartbeatListener listener(deployment, "quoin_status", !one_namespace);
+  listener.listen(wait, [&] {
+    const auto newest = listener.newest();
+    for (const ServiceConfig& service : deployment.services) {
+      if (!newest.contains({deployment.name_space, label(service)})) return false;
+    }
+    return !deployment.services.empty();
+  });
+  auto newest = listener.newest();
+  std::vector<Row> rows;
+  for (const ServiceConfig& service : deployment.services) {
+    const auto heard = newest.find({deployment.name_space, label(service)});
+    if (heard != newest.end()) {
+      rows.push_back(row_of(deployment.name_space, heard->second.newest));
+      newest.erase(heard);
+    } else {
+      Row silent{{label(service), service.kind, service.method, {}, 0}, deployment.name_space, {}};
+      silent.figures.report.state = "silent";
+      silent.figures.host = service.host;
+      rows.push_back(std::move(silent));
+    }
+  }
+  for (const auto& [key, heard] : newest) rows.push_back(row_of(key.first, heard.newest));
+  // A name is enough where there is one namespace.
+  for (Row& row : rows) {
+    if (row.name_space == rows.front().name_space && row.name_space == rows.back().name_space) {
+      continue;
+    }
+    row.figures.name = row.name_space + "/" + row.figures.name;
+  }
+  return rows;
+}
+
+void print(const std::vector<Row>& rows) {
+  std::vector<ServiceFigures> services;
+  for (const Row& row : rows) services.push_back(row.figures);
+  for (const std::string& text : status_lines(services)) std::cout << text << '\n';
+  for (const Row& row : rows) {
+    if (!row.status) continue;
+    const std::string& name = row.figures.name;
+    if (!row.status->detail().empty()) std::cout << name << ": " << row.status->detail() << '\n';
+    for (const std::string& mismatch : row.status->incompatible_qos()) {
+      std::cout << name << ": incompatible QoS: " << mismatch << '\n';
+    }
+    for (const msg::Diagnostic& diagnostic : row.status->diagnostics()) {
+      std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
+    }
+  }
+}
+
+void print_json(const std::vector<Row>& rows) {
+  nlohmann::ordered_json services = nlohmann::ordered_json::object();
+  for (const Row& row : rows) {
+    auto object = service_summary(row.figures);
+    object.erase("restarts");  // known to the supervisor only
+    object["namespace"] = row.name_space;
+    if (row.status) {
+      const msg::ServiceStatus& status = *row.status;
+      object["detail"] = status.detail();
+      object["rate_hz"] = status.rate();
+      object["host"] = status.host();
+      object["pid"] = status.pid();
+      object["incarnation"] = status.incarnation();
+      object["stamp"] = status.stamp();
+      object["age_s"] = row.figures.age;
+      object["matched_inputs"] = status.matched_inputs();
+      object["matched_outputs"] = status.matched_outputs();
+      object["control_dropped"] = status.control_dropped();
+      object["incompatible_qos"] = status.incompatible_qos();
+      auto diagnostics = nlohmann::ordered_json::object();
+      for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
+        diagnostics[diagnostic.name()] = diagnostic.value();
+      }
+      object["diagnostics"] = diagnostics;
+    }
+    services[row.figures.name] = object;
+  }
+  const nlohmann::ordered_json object{{"services", services}};
+  std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+int run(const StatusOptions& options, bool one_namespace) {
+  const Deployment deployment = deployment_to_reach(options.network, options.file);
+  const std::vector<Row> rows = collect(deployment, one_namespace, options.wait);
+  if (options.json) {
+    print_json(rows);
+  } else if (!rows.empty()) {
+    print(rows);
+  }
+  bool healthy = true;
+  bool heard = false;
+  for (const Row& row : rows) {
+    const std::string& state = row.figures.report.state;
+    heard = heard || row.status.has_value();
+    healthy = healthy && state != "silent" && state != "failed";
+  }
+  if (!heard) {
+    std::cerr << "no service"
+              << (one_namespace ? " of namespace '" + deployment.name_space + "'" : "")
+              << " reports in domain " << deployment.domain << "; is it running?\n";
+  }
+  return heard && healthy ? exit_ok : exit_failure;
+}
+
+}  // namespace
+
+Command add_status(CLI::App& app) {
+  CLI::App* line = app.add_subcommand(
+      "status",
+      "Show what the running services report, on this host and on others; fails when one is silent "
+      "or failed");
+  const auto options = std::make_shared<StatusOptions>();
+  CLI::Option* file = line->add_option("file", options->file, "Deployment file (YAML)");
+  add_network_options(*line, options->network, file);
+  const CLI::Option* name_space = line->get_option("--namespace");
+  line->add_option("--wait", options->wait, "How long to listen [s]")
+      ->capture_default_str()
+      ->check(more_than_zero());
+  line->add_flag("--json", options->json, "As a JSON object");
+  return {line, [=] { return run(*options, file->count() + name_space->count() > 0); }};
+}
+
+}  // namespace quoin::deploy

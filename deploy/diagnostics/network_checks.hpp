@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "deploy/diagnostics/check.hpp"
+
+namespace quoin::deploy {
+
+/// A process that was heard as a service.
+struct HeardProcess {
+  std::string service;  ///< namespace and label
+  std::string host;
+  std::uint32_t process = 0;
+  std::uint64_t incarnation = 0;
+  bool active = true;  ///< at work; not waiting to begin, or to take over
+  /// Heartbeats that were sent while this one listened; a late reader gets an older one, too.
+  std::size_t heard = 0;
+  /// [ns] from the stamp of such a heartbeat, by the sender's clock, to its reception by this
+  /// host's: the smallest.
+  std::int64_t delay = 0;
+  std::vector<std::string> incompatible_qos;
+};
+
+/// Whether the clocks of other hosts agree with that of `own_host`: latencies and accounting over
+/// hosts compare stamps.
+[[nodiscard]] Checks check_clocks(const std::vector<HeardProcess>& processes,
+                                  const std::string& own_host);
+
+/// Whether two processes are at work under one label, which is what two deployments of one domain and
+/// namespace do.
+[[nodiscard]] Checks check_doubles(const std::vector<HeardProcess>& processes);
+
+/// What readers and writers of the services do not agree on.
+[[nodiscard]] Checks check_qos(const std::vector<HeardProcess>& processes);
+
+}  // namespace quoin::deploy

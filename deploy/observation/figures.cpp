@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/observation/figures.hpp"
+
+namespace quoin::deploy {
+
+std::map<std::uint64_t, ServiceReport> Incarnations::processes() const {
+  std::map<std::uint64_t, ServiceReport> processes = reports_;
+  for (const auto& [incarnation, count] : published_at_least_) {
+    ServiceReport& process = processes[incarnation];  // may have died before its first heartbeat
+    process.published = std::max(process.published, count);
+  }
+  return processes;
+}
+
+ServiceReport Incarnations::total() const {
+  ServiceReport total;
+  if (!reports_.empty()) total = reports_.rbegin()->second;
+  for (auto report = reports_.begin(); report != reports_.end(); ++report) {
+    if (std::next(report) == reports_.end()) break;
+    const ServiceReport& older = report->second;
+    total.received += older.received;
+    total.published += older.published;
+    total.lost += older.lost;
+    total.upstream_lost += older.upstream_lost;
+    total.failures += older.failures;
+    for (const auto& [cause, count] : older.losses) total.losses[cause] += count;
+  }
+  for (const auto& [incarnation, count] : published_at_least_) {
+    const auto report = reports_.find(incarnation);
+    const std::uint64_t told = report == reports_.end() ? 0 : report->second.published;
+    total.published += std::max(count, told) - told;
+  }
+  return total;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/observation/heartbeats.hpp"
+
+#include <algorithm>
+
+#include "services/keys/key_files.hpp"
+#include "services/runtime/process/clock.hpp"
+#include "services/runtime/process/heartbeat.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr std::size_t most_namespaces = 64;
+}  // namespace
+
+ServiceReport report_of(const msg::ServiceStatus& status) {
+  ServiceReport report;
+  report.state = runtime::state_name(status.state());
+  report.detail = status.detail();
+  report.received = status.received();
+  report.first_number = status.first_sequence_number();
+  report.published = status.published();
+  report.lost = status.lost();
+  for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
+  report.upstream_lost = status.upstream_lost();
+  report.failures = status.failures();
+  report.rate = status.rate();
+  report.latency_p50 = status.latency_p50();
+  report.latency_p99 = status.latency_p99();
+  report.processing_p50 = status.processing_p50();
+  report.processing_p99 = status.processing_p99();
+  report.resident_memory = status.resident_memory();
+  return report;
+}
+
+HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::string& name,
+                                     bool all_namespaces)
+    : all_namespaces_(all_namespaces),
+      participant_(runtime::participant_config(deployment, name, observer_identity)) {
+  if (!all_namespaces) add(deployment.name_space);
+}
+
+void HeartbeatListener::add(const std::string& name_space) {
+  auto reader = std::make_unique<StatusReader>(participant_, status_topic(name_space),
+                                               runtime::QosPreset::state);
+  wait_set_.add(*reader);
+  readers_[name_space] = std::move(reader);
+}
+
+void HeartbeatListener::look_for_namespaces() {
+  const std::string ending = status_topic("");
+  for (const std::string& topic : participant_.written_topics()) {
+    if (!topic.ends_with(ending) || readers_.size() >= most_namespaces) continue;
+    const std::string name_space = topic.substr(0, topic.size() - ending.size());
+    if (!name_space.empty() && !readers_.contains(name_space)) add(name_space);
+  }
+}
+
+void HeartbeatListener::take(const std::string& name_space, StatusReader& reader) {
+  while (reader.take(status_)) {
+    const std::int64_t delay = runtime::now_ns() - status_.stamp();
+    const auto [entry, first] = heard_.try_emplace({name_space, status_.incarnation()});
+    HeardHeartbeats& heard = entry->second;
+    if (!first) {
+      heard.delay = heard.fresh == 0 ? delay : std::min(heard.delay, delay);
+      ++heard.fresh;
+    }
+    if (first || status_.stamp() >= heard.newest.stamp()) heard.newest = status_;
+    heard.last = Clock::now();
+  }
+}
+
+void HeartbeatListener::listen(double seconds, const std::function<bool()>& complete) {
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(seconds));
+  while (!complete() && Clock::now() < deadline) {
+    if (all_namespaces_) look_for_namespaces();
+    const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
+    wait_set_.wait(std::clamp(left, milliseconds(0), milliseconds(100)));
+    for (auto& [name_space, reader] : readers_) take(name_space, *reader);
+  }
+}
+
+std::map<std::pair<std::string, std::string>, HeardHeartbeats> HeartbeatListener::newest() const {
+  std::map<std::pair<std::string, std::string>, HeardHeartbeats> services;
+  for (const auto& [key, heard] : heard_) {
+    HeardHeartbeats& newest = services[{key.first, heard.newest.service()}];
+    if (heard.newest.stamp() >= newest.newest.stamp()) newest = heard;
+  }
+  return services;
+}
+
+}  // namespace quoin::deploy

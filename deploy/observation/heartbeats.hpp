@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <idl/Status.h>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "services/deployment/deployment.hpp"
+#include "deploy/observation/figures.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/reader.hpp"
+
+namespace quoin::deploy {
+
+/// What a heartbeat says, in the terms of a report.
+[[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
+
+/// What one process told of itself.
+struct HeardHeartbeats {
+  msg::ServiceStatus newest;
+  std::chrono::steady_clock::time_point last;  ///< when that was heard
+  /// Of those that were sent while we listened; the first may be older.
+  std::size_t fresh = 0;
+  std::int64_t delay = 0;  ///< [ns] from stamp to reception, the smallest of the fresh ones
+};
+
+/// Listens to the heartbeats of all services of a namespace, or of all namespaces, wherever they
+/// run.
+class HeartbeatListener {
+ public:
+  /// Throws std::runtime_error when DDS refuses.
+  HeartbeatListener(const Deployment& deployment, const std::string& name, bool all_namespaces);
+
+  /// Listens for `seconds`, but not once `complete` holds.
+  void listen(double seconds, const std::function<bool()>& complete);
+
+  /// By namespace and incarnation.
+  using Heard = std::map<std::pair<std::string, std::uint64_t>, HeardHeartbeats>;
+  [[nodiscard]] const Heard& heard() const { return heard_; }
+  /// The newest process of each service, by namespace and label.
+  [[nodiscard]] std::map<std::pair<std::string, std::string>, HeardHeartbeats> newest() const;
+
+ private:
+  using StatusReader = runtime::Reader<msg::ServiceStatus>;
+  void look_for_namespaces();
+  void add(const std::string& name_space);
+  void take(const std::string& name_space, StatusReader& reader);
+
+  bool all_namespaces_;
+  runtime::Participant participant_;
+  runtime::WaitSet wait_set_;
+  std::map<std::string, std::unique_ptr<StatusReader>> readers_;
+  msg::ServiceStatus status_;
+  Heard heard_;
+};
+
+}  // namespace quoin::deploy

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/observation/scan_join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "core/parameters/suggestion.hpp"
+#include "services/deployment/kinds.hpp"
+#include "services/keys/key_files.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+// Scans waiting for their other parts; a chain is never that far apart.
+constexpr std::size_t most_pending = 64;
+
+}  // namespace
+
+CornerChain corner_chain(const Deployment& deployment, const std::string& name) {
+  const ServiceConfig& corners = deployment.service(name);
+  if (find_kind(corners.kind)->output != MessageType::corners) {
+    std::vector<std::string> names;
+    for (const ServiceConfig& service : deployment.services) {
+      if (find_kind(service.kind)->output == MessageType::corners) names.push_back(service.name);
+    }
+    throw std::out_of_range(deployment.file.string() + ": service '" + name + "' of kind " +
+                            corners.kind + " gives no corners" + suggestion(name, names));
+  }
+  const ServiceConfig& lines = deployment.service(corners.input);
+  const ServiceConfig& segments = deployment.service(lines.input);
+  return {&deployment.service(segments.input), &segments, &lines, &corners};
+}
+
+ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
+                   std::optional<std::uint64_t> scan)
+    : chain_(chain),
+      scan_(scan),
+      participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
+      segments_(participant_, output_topic(deployment, *chain.segmentation),
+                runtime::onlooker_qos(*chain.segmentation)),
+      lines_(participant_, output_topic(deployment, *chain.line_fitting),
+             runtime::onlooker_qos(*chain.line_fitting)),
+      corners_(participant_, output_topic(deployment, *chain.corners),
+               runtime::onlooker_qos(*chain.corners)) {
+  wait_set_.add(segments_);
+  wait_set_.add(lines_);
+  wait_set_.add(corners_);
+}
+
+template <class T>
+void ScanJoin::take(runtime::Reader<T>& reader, std::optional<T> Parts::*part) {
+  T message;
+  while (reader.take(message)) {
+    const std::uint64_t number = message.header().sequence_number();
+    newest_ = number;
+    if (scan_ && number != *scan_) continue;
+    parts_[number].*part = std::move(message);
+    message = T();
+  }
+}
+
+std::optional<Drawing> ScanJoin::poll(std::chrono::milliseconds timeout) {
+  wait_set_.wait(timeout);
+  take(segments_, &Parts::segments);
+  take(lines_, &Parts::lines);
+  take(corners_, &Parts::corners);
+  for (const auto& [number, parts] : parts_) {
+    if (parts.segments && parts.lines && parts.corners) return draw(parts);
+  }
+  while (parts_.size() > most_pending) parts_.erase(parts_.begin());
+  return std::nullopt;
+}
+
+Drawing ScanJoin::draw(const Parts& parts) const {
+  Drawing drawing;
+  const msg::Segments& segments = *parts.segments;
+  const std::size_t count = std::min(segments.bearings().size(), segments.ranges().size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const double bearing = segments.bearings()[i];
+    const double range = segments.ranges()[i];
+    drawing.points.push_back({range * std::cos(bearing), range * std::sin(bearing)});
+  }
+  for (const msg::Line& line : parts.lines->lines()) {
+    drawing.lines.push_back(
+        {{line.start().x(), line.start().y()}, {line.end().x(), line.end().y()}});
+  }
+  for (const msg::Corner& corner : parts.corners->corners()) {
+    drawing.corners.push_back({{corner.x(), corner.y()},
+                               corner.ellipse95_major(),
+                               corner.ellipse95_minor(),
+                               corner.ellipse95_direction()});
+  }
+  drawing.title =
+      chain_.corners->name + ", scan " + std::to_string(segments.header().sequence_number());
+  // The methods that made the result, which control may have swapped since the start.
+  for (const msg::StageTrace& stage : parts.corners->header().trace()) {
+    drawing.caption += (drawing.caption.empty() ? "" : ", ") + stage.service();
+    if (!stage.method().empty()) drawing.caption += " (" + stage.method() + ")";
+  }
+  drawing.caption += "; covariances " + parts.corners->covariance_mode();
+  return drawing;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/observation/summary.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace quoin::deploy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An object even when it is empty.
+Json counts(const std::map<std::string, std::uint64_t>& values) {
+  Json json = Json::object();
+  for (const auto& [name, count] : values) json[name] = count;
+  return json;
+}
+
+Json corner_summary(const CornerFigures& corner) {
+  return {{"scans_expected", corner.scans_expected},
+          {"scans_delivered", corner.scans_delivered},
+          {"scans_lost", corner.scans_lost},
+          {"lost_by_stage", counts(corner.lost_by_stage)},
+          {"mean_corners", rounded(corner.mean_corners)},
+          {"median_sigma_mm", rounded(corner.median_sigma * 1e3)},
+          {"median_ellipse_area_mm2", rounded(corner.median_ellipse_area * 1e6)}};
+}
+
+}  // namespace
+
+double rounded(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return 0.0;
+  const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
+
+Json service_summary(const ServiceFigures& service) {
+  const ServiceReport& report = service.report;
+  return {{"kind", service.kind},
+          {"method", service.method},
+          {"state", report.state},
+          {"received", report.received},
+          {"published", report.published},
+          {"lost", report.lost},
+          {"losses", counts(report.losses)},
+          {"upstream_lost", report.upstream_lost},
+          {"failures", report.failures},
+          {"latency_p50_us", rounded(report.latency_p50 * 1e6)},
+          {"latency_p99_us", rounded(report.latency_p99 * 1e6)},
+          {"processing_p50_us", rounded(report.processing_p50 * 1e6)},
+          {"processing_p99_us", rounded(report.processing_p99 * 1e6)},
+          {"resident_memory_bytes", report.resident_memory},
+          {"restarts", service.restarts}};
+}
+
+Json summary(const DeploymentFigures& figures) {
+  Json services = Json::object();
+  for (const ServiceFigures& service : figures.services) {
+    services[service.name] = service_summary(service);
+  }
+  Json corners = Json::object();
+  for (const CornerFigures& corner : figures.corners) corners[corner.name] = corner_summary(corner);
+  return {{"deployment", figures.deployment},
+          {"duration_s", rounded(figures.duration)},
+          {"scans_published", figures.scans_published},
+          {"services", services},
+          {"corners", corners}};
+}
+
+}  // namespace quoin::deploy

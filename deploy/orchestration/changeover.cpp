@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/orchestration/changeover.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "services/deployment/kinds.hpp"
+#include "deploy/orchestration/cue.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// A scan that was on its way when its reader was matched may be missed; the next one is not.
+constexpr seconds first_scan_patience{2};
+
+bool publishes(const ServiceConfig& service) {
+  return find_kind(service.kind)->output != MessageType::none;
+}
+
+/// The plan with more readers to wait for, publishing only when told to.
+ProcessPlan held_plan(ProcessPlan plan, int more_readers) {
+  const auto option = std::find(plan.arguments.begin(), plan.arguments.end(), "--observers");
+  if (option != plan.arguments.end()) {
+    more_readers += std::stoi(*std::next(option));
+    plan.arguments.erase(option, option + 2);
+  }
+  plan.arguments.insert(plan.arguments.end(),
+                        {"--observers", std::to_string(more_readers), "--held"});
+  return plan;
+}
+
+/// A line of a service's log without time, name and level.
+std::string message_of(const std::string& line, const std::string& service) {
+  const std::string name = "[" + service + "] ";
+  const std::size_t at = line.find(name);
+  if (at == std::string::npos) return line;
+  const std::size_t level = line.find(' ', at + name.size());
+  return level == std::string::npos ? line : line.substr(level + 1);
+}
+
+std::string in_seconds(milliseconds time) {
+  return std::to_string(time.count() / 1000) + "." + std::to_string(time.count() % 1000 / 100) +
+         " s";
+}
+
+}  // namespace
+
+Changeover::Changeover(World world, const Deployment& running, const Deployment& wanted,
+                       const Plan& plan, const Plan& elsewhere,
+                       const std::vector<ProcessPlan>& plans, milliseconds patience)
+    : world_(std::move(world)),
+      running_(running),
+      wanted_(wanted),
+      plan_(plan),
+      elsewhere_(elsewhere),
+      plans_(plans),
+      patience_(patience) {}
+
+void Changeover::prepare() {
+  try {
+    world_.monitor.add(wanted_);
+    start_newcomers();
+    wait_until_ready();
+    swap_methods();
+  } catch (const std::exception&) {
+    roll_back();
+    throw;
+  }
+}
+
+// From here on a process that is started again works as wanted.
+void Changeover::commit() {
+  if (committed_) return;
+  committed_ = true;
+  for (const ProcessPlan& plan : plans_) {
+    if (!plan_.replaces(plan.name)) world_.supervisor.replan(plan);
+  }
+}
+
+void Changeover::change(const std::string& service) {
+  commit();
+  const auto change =
+      std::find_if(plan_.changes.begin(), plan_.changes.end(),
+                   [&](const Change& candidate) { return candidate.service == service; });
+  if (change == plan_.changes.end() || !done_.insert(service).second) return;
+  if (change->action == ChangeAction::stop) {
+    if (const auto key = world_.supervisor.key_of(service)) stop({*key});
+    return;
+  }
+  const auto newcomer =
+      std::find_if(newcomers_.begin(), newcomers_.end(),
+                   [&](const Newcomer& candidate) { return candidate.change == &*change; });
+  if (newcomer == newcomers_.end()) return;
+  change->action == ChangeAction::start ? begin(*newcomer) : take_over(*newcomer);
+}
+
+void Changeover::finish() {
+  commit();
+  // Whoever reads is at work before the new source it reads begins.
+  for (auto newcomer = newcomers_.rbegin(); newcomer != newcomers_.rend(); ++newcomer) {
+    if (newcomer->change->action == ChangeAction::start) change(newcomer->change->service);
+  }
+  // From the sources on, so that what takes over gets its input from what took over before.
+  for (const Newcomer& newcomer : newcomers_) change(newcomer.change->service);
+  stop_removed();
+  world_.monitor.settle(wanted_);
+}
+
+void Changeover::start_newcomers() {
+  for (const Change& change : plan_.changes) {
+    if (change.action == ChangeAction::replace) {
+      if (const auto key = world_.supervisor.key_of(change.service)) {
+        if (world_.supervisor.running(*key)) predecessors_[change.service] = *key;
+      }
+    }
+  }
+  for (const Change& change : plan_.changes) {
+    if (change.action == ChangeAction::start || change.action == ChangeAction::replace) {
+      start(change);
+    }
+  }
+}
+
+void Changeover::start(const Change& change) {
+  const ServiceConfig& config = wanted_.service(change.service);
+  const auto plan = std::find_if(plans_.begin(), plans_.end(), [&](const ProcessPlan& candidate) {
+    return candidate.name == change.service;
+  });
+  if (!publishes(config)) {
+    // It has no scans to hand over, but maybe a device or a port of which there is only one.
+    if (const auto old = predecessors_.find(change.service); old != predecessors_.end()) {
+      stopped_beforehand_.push_back(world_.supervisor.plan(old->second));
+      stop({old->second});
+      predecessors_.erase(old);
+    }
+    newcomers_.push_back({&change, &config, &*plan, world_.supervisor.add(*plan)});
+    return;
+  }
+  newcomers_.push_back(
+      {&change, &config, &*plan, world_.supervisor.add(held_plan(*plan, readers_to_go(config)))});
+}
+
+// Readers of the present output that are still there, but not for long: they must not be taken for
+// those that are waited for.
+int Changeover::readers_to_go(const ServiceConfig& service) const {
+  if (!plan_.replaces(label(service))) return 0;
+  const std::string topic = output_topic(wanted_, service);
+  if (output_topic(running_, running_.service(label(service))) != topic) return 0;
+  int count = 0;
+  for (const ServiceConfig* reader : running_.readers_of(service.name)) {
+    if (elsewhere_.replaces(label(*reader)) || elsewhere_.stops(label(*reader))) ++count;
+    if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
+    const auto key = world_.supervisor.key_of(label(*reader));
+    if (key && world_.supervisor.running(*key)) ++count;
+  }
+  return count;
+}
+
+void Changeover::wait_until_ready() {
+  const auto deadline = Clock::now() + patience_;
+  std::set<std::string> waiting;
+  for (const Newcomer& newcomer : newcomers_) waiting.insert(label(*newcomer.config));
+  while (!waiting.empty()) {
+    for (Newcomer& newcomer : newcomers_) {
+      const std::string& name = label(*newcomer.config);
+      if (!waiting.contains(name)) continue;
+      if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
+        const std::string line = message_of(world_.last_line(name), name);
+        throw std::runtime_error("the new process of service '" + name + "' ended with " +
+                                 describe(*end) + (line.empty() ? "" : ": " + line));
+      }
+      if (ready(newcomer)) waiting.erase(name);
+      if (!waiting.empty() && Clock::now() > deadline) {
+        throw std::runtime_error(why_not_ready(newcomer));
+      }
+    }
+    if (!world_.dialogue.pump()) throw std::runtime_error("the deployment is stopping");
+    if (world_.withdrawn()) throw std::runtime_error(withdrawn);
+  }
+  // No request is lost from the first answer on.
+  for (const auto& [name, key] : predecessors_) {
+    if (!world_.dialogue.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
+      throw std::runtime_error("the running process of service '" + name +
+                               "' does not answer; it is process " +
+                               std::to_string(world_.supervisor.process_id(key)));
+    }
+  }
+}
+
+bool Changeover::ready(Newcomer& newcomer) {
+  const auto process =
+      world_.monitor.process(label(*newcomer.config), world_.supervisor.process_id(newcomer.key));
+  if (!process) return false;
+  if (!publishes(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
+  if (process->state != msg::ServiceState::STATE_HELD) return false;
+  newcomer.incarnation = process->incarnation;
+  return world_.dialogue
+      .ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
+      .has_value();
+}
+
+// Of a process of ours, should there be others of that name; 0 when nothing was heard of it.
+std::uint64_t Changeover::incarnation_of(int key) const {
+  const auto process =
+      world_.monitor.process(world_.supervisor.plan(key).name, world_.supervisor.process_id(key));
+  return process ? process->incarnation : 0;
+}
+
+std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
+  const std::string& name = label(*newcomer.config);
+  const auto process = world_.monitor.process(name, world_.supervisor.process_id(newcomer.key));
+  std::string text =
+      "the new process of service '" + name + "' was not ready within " + in_seconds(patience_);
+  if (!process) return text + ": nothing was heard of it";
+  return process->detail.empty() ? text : text + ": " + process->detail;
+}
+
+void Changeover::swap_methods() {
+  for (const Change& change : plan_.changes) {
+    if (change.action != ChangeAction::swap) continue;
+    const Dialogue::Swap swap = world_.dialogue.swap(wanted_.service(change.service));
+    if (!swap.refusal.empty()) {
+      throw std::runtime_error("service '" + change.service + "' " + swap.refusal);
+    }
+    if (swap.first_scan) first_scans_[change.service] = *swap.first_scan;
+    swapped_.push_back(change.service);
+  }
+}
+
+void Changeover::roll_back() {
+  for (const std::string& name : swapped_) (void)world_.dialogue.swap(running_.service(name));
+  first_scans_.clear();
+  for (const Newcomer& newcomer : newcomers_) {
+    const int process_id = world_.supervisor.process_id(newcomer.key);
+    stop({newcomer.key});
+    world_.monitor.forget(label(*newcomer.config), process_id);
+  }
+  for (const ProcessPlan& plan : stopped_beforehand_) {
+    const int key = world_.supervisor.add(plan);
+    world_.supervisor.adopt(key, plan);
+  }
+  world_.monitor.settle(running_);
+}
+
+void Changeover::begin(const Newcomer& newcomer) {
+  if (!publishes(*newcomer.config)) {
+    world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+    return;
+  }
+  const msg::ControlReply held = hold(newcomer, milliseconds(0));
+  if (held.held_scans() > 0 || newcomer.config->input.empty()) {
+    first_scans_[label(*newcomer.config)] = held.first_sequence_number();
+  }
+  begin_with(newcomer, 0);
+}
+
+void Changeover::take_over(const Newcomer& newcomer) {
+  const auto predecessor = predecessors_.find(label(*newcomer.config));
+  if (predecessor == predecessors_.end()) {
+    begin(newcomer);
+    return;
+  }
+  const bool same_scans = newcomer.change->same_scans;
+  const bool source = newcomer.config->input.empty();
+  const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
+  world_.supervisor.retire(predecessor->second, false);
+  const auto handed_over =
+      world_.dialogue.ask(label(*newcomer.config), incarnation_of(predecessor->second),
+                          msg::ControlAction::CONTROL_HAND_OVER,
+                          same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
+  std::uint64_t scan = 0;  // everything that is held
+  if (handed_over && handed_over->accepted()) {
+    if (same_scans) scan = handed_over->first_sequence_number();
+  } else {
+    world_.supervisor.kill(predecessor->second);
+    world_.dialogue.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
+                               seconds(5));
+  }
+  first_scans_[label(*newcomer.config)] = same_scans ? scan : held.first_sequence_number();
+  begin_with(newcomer, scan);
+}
+
+msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
+  const auto deadline = Clock::now() + patience;
+  while (true) {
+    const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
+                                           msg::ControlAction::CONTROL_HOLD);
+    if (!reply) return {};
+    if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
+    if (!world_.dialogue.pump()) return *reply;
+  }
+}
+
+void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
+  world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+  const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
+                                         msg::ControlAction::CONTROL_TAKE_OVER, scan);
+  // Started again it works like any other.
+  if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
+}
+
+void Changeover::stop_removed() {
+  std::map<int, std::vector<int>> levels;
+  for (const Change& change : plan_.changes) {
+    if (change.action != ChangeAction::stop || done_.contains(change.service)) continue;
+    if (const auto key = world_.supervisor.key_of(change.service)) {
+      levels[world_.supervisor.plan(*key).level].push_back(*key);
+    }
+  }
+  for (const auto& [level, keys] : levels) stop(keys);
+}
+
+void Changeover::stop(const std::vector<int>& keys) {
+  for (const int key : keys) world_.supervisor.retire(key, true);
+  for (const int key : keys) {
+    // Killed after five seconds.
+    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+  }
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <idl/Control.h>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "deploy/orchestration/plan.hpp"
+#include "services/deployment/deployment.hpp"
+#include "deploy/orchestration/dialogue.hpp"
+#include "deploy/observation/monitor.hpp"
+#include "deploy/orchestration/supervisor.hpp"
+
+namespace quoin::deploy {
+
+/// Carries out a plan on the running processes, or leaves everything as it was.
+///
+/// First all new processes are started, held, and everything that could fail is tried. Only when
+/// each of them is matched with its neighbours and all methods are exchanged do they begin to
+/// publish, the replaced ones hand over and what is not wanted any more stops. From there on the
+/// only way is forward: a process that fails is killed, and what takes its place is at work.
+/// Between the two one may wait for other hosts, and then do one change after the other.
+class Changeover {
+ public:
+  struct World {
+    Supervisor& supervisor;
+    Monitor& monitor;
+    Dialogue& dialogue;
+    /// Whether not to wait any longer for what is new to be ready.
+    std::function<bool()> withdrawn;
+    /// The last line that a service has written; "" when there is none.
+    std::function<std::string(const std::string& service)> last_line;
+  };
+
+  /// `running`: what the processes do now. `elsewhere`: what other hosts change meanwhile. `plans`:
+  /// how to start the services of `wanted`, held processes apart. All must outlive the object.
+  Changeover(World world, const Deployment& running, const Deployment& wanted, const Plan& plan,
+             const Plan& elsewhere, const std::vector<ProcessPlan>& plans,
+             std::chrono::milliseconds patience);
+
+  /// Up to where it can be rolled back. Throws std::runtime_error with the reason when it was.
+  void prepare();
+  /// Instead of what follows: leaves everything as it was.
+  void roll_back();
+  /// Carries out the change of one service. Nothing when there is none, or it has been done.
+  void change(const std::string& service);
+  /// All changes that are left, in an order in which no scan is lost.
+  void finish();
+
+  /// The first scan that each changed service handled as wanted, where there is one.
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& first_scans() const {
+    return first_scans_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Newcomer {
+    const Change* change;
+    const ServiceConfig* config;
+    const ProcessPlan* plan;
+    int key;
+    std::uint64_t incarnation = 0;
+  };
+
+  void start_newcomers();
+  void start(const Change& change);
+  [[nodiscard]] int readers_to_go(const ServiceConfig& service) const;
+  void wait_until_ready();
+  [[nodiscard]] bool ready(Newcomer& newcomer);
+  [[nodiscard]] std::uint64_t incarnation_of(int key) const;
+  [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
+  void swap_methods();
+  void commit();
+  void begin(const Newcomer& newcomer);
+  void take_over(const Newcomer& newcomer);
+  [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
+                                       std::chrono::milliseconds patience);
+  void begin_with(const Newcomer& newcomer, std::uint64_t scan);
+  void stop_removed();
+  void stop(const std::vector<int>& keys);
+
+  World world_;
+  const Deployment& running_;
+  const Deployment& wanted_;
+  const Plan& plan_;
+  const Plan& elsewhere_;
+  const std::vector<ProcessPlan>& plans_;
+  std::chrono::milliseconds patience_;
+  std::vector<Newcomer> newcomers_;
+  std::map<std::string, int> predecessors_;      // keys of the processes that are replaced
+  std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
+  std::vector<std::string> swapped_;
+  bool committed_ = false;
+  std::set<std::string> done_;  // changes
+  std::map<std::string, std::uint64_t> first_scans_;
+};
+
+}  // namespace quoin::deploy

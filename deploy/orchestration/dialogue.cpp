@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/orchestration/dialogue.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "services/deployment/kinds.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+// A service answers within five seconds, or is killed.
+constexpr milliseconds answer_patience{5500};
+
+void set_method(const ServiceConfig& config, msg::ControlRequest& request) {
+  request.method(config.method);
+  for (const ParameterSetting& setting : config.parameters) {
+    msg::ParameterSetting& out = request.parameters().emplace_back();
+    out.name(setting.name);
+    out.value(setting.text);
+  }
+}
+
+/// Takes over what a service says of its method, if this build knows it.
+void set_method(const msg::ControlReply& reply, ServiceConfig& service) {
+  const auto& methods = find_kind(service.kind)->methods;
+  if (std::none_of(methods.begin(), methods.end(),
+                   [&](const MethodInfo& method) { return method.name == reply.method(); })) {
+    return;
+  }
+  service.method = reply.method();
+  service.parameters.clear();
+  for (const msg::ParameterSetting& setting : reply.parameters()) {
+    service.parameters.push_back({setting.name(), setting.value()});
+  }
+}
+
+}  // namespace
+
+Dialogue::Dialogue(const Supervisor& supervisor, Requester& requester, std::function<bool()> pump)
+    : supervisor_(supervisor), requester_(requester), pump_(std::move(pump)) {}
+
+std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
+                                               std::uint64_t incarnation, msg::ControlAction action,
+                                               std::uint64_t sequence_number) {
+  // Only the first request to a process can get lost: before the endpoints are matched.
+  const bool question = action == msg::ControlAction::CONTROL_DESCRIBE;
+  const auto deadline = Clock::now() + (question ? milliseconds(3000) : answer_patience);
+  do {
+    msg::ControlRequest request;
+    request.service(service);
+    request.incarnation(incarnation);
+    request.action(action);
+    request.sequence_number(sequence_number);
+    if (const auto reply = answer(request, question ? milliseconds(300) : answer_patience)) {
+      return reply;
+    }
+  } while (Clock::now() < deadline && !supervisor_.stopping());
+  return std::nullopt;
+}
+
+Dialogue::Swap Dialogue::swap(const ServiceConfig& config) {
+  if (!ask(label(config), 0, msg::ControlAction::CONTROL_DESCRIBE)) return {"does not answer"};
+  msg::ControlRequest request;
+  request.service(label(config));
+  request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
+  set_method(config, request);
+  const auto reply = answer(request, answer_patience);
+  if (!reply) return {"does not answer"};
+  if (!reply->accepted()) return {"refuses: " + reply->detail()};
+  if (!reply->detail().empty()) return {};
+  return {"", reply->first_sequence_number()};
+}
+
+Deployment Dialogue::describe(const Deployment& deployment) {
+  Deployment described = deployment;
+  std::map<std::uint64_t, ServiceConfig*> asked;
+  for (ServiceConfig& service : described.services) {
+    const auto key = supervisor_.key_of(label(service));
+    if (service.method.empty() || !key || !supervisor_.running(*key)) continue;
+    msg::ControlRequest request;
+    request.service(label(service));
+    request.action(msg::ControlAction::CONTROL_DESCRIBE);
+    asked[requester_.send(request)] = &service;
+  }
+  const auto all_have_answered = [&] {
+    std::erase_if(asked, [&](const auto& entry) {
+      const auto reply = requester_.take(entry.first);
+      if (reply) set_method(*reply, *entry.second);
+      return reply.has_value();
+    });
+    return asked.empty();
+  };
+  wait_until(all_have_answered, seconds(1));
+  return described;
+}
+
+bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds patience) {
+  const auto deadline = Clock::now() + patience;
+  while (!condition()) {
+    if (Clock::now() >= deadline || !pump()) return false;
+  }
+  return true;
+}
+
+std::optional<msg::ControlReply> Dialogue::answer(msg::ControlRequest& request,
+                                                  milliseconds patience) {
+  const std::uint64_t number = requester_.send(request);
+  std::optional<msg::ControlReply> reply;
+  wait_until([&] { return (reply = requester_.take(number)).has_value(); }, patience);
+  return reply;
+}
+
+}  // namespace quoin::deploy

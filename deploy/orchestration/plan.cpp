@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/orchestration/plan.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "core/parameters/changed_settings.hpp"
+#include "services/deployment/kinds.hpp"
+
+namespace quoin::deploy {
+
+namespace {
+
+/// What of the service runs on `host`; null when nothing does.
+const ServiceConfig* find(const Deployment& deployment, std::string_view name,
+                          const std::string& host) {
+  const auto found = std::find_if(
+      deployment.services.begin(), deployment.services.end(),
+      [&](const ServiceConfig& service) { return label(service) == name && service.host == host; });
+  return found == deployment.services.end() ? nullptr : &*found;
+}
+
+std::string arrow(const std::string& what, const std::string& from, const std::string& to) {
+  return what + " " + from + " -> " + to;
+}
+
+std::string policy_name(RestartPolicy policy) {
+  return policy == RestartPolicy::always ? "always" : "never";
+}
+
+/// Where the scans of a service come from.
+std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
+  const ServiceConfig* origin = &service;
+  while (!origin->input.empty()) origin = &deployment.service(origin->input);
+  return origin->name;
+}
+
+std::string settings_text(const ParameterSettings& settings) {
+  std::string text;
+  for (const ParameterSetting& setting : settings) {
+    text += (text.empty() ? "" : ", ") + setting.name + "=" + setting.text;
+  }
+  return text;
+}
+
+std::filesystem::path folder_of(const Deployment& deployment) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(deployment.file))
+      .parent_path();
+}
+
+/// Relative paths count from the folder of the deployment file.
+bool names_a_file(const ServiceConfig& service, const Deployment& deployment) {
+  const KindInfo& kind = *find_kind(service.kind);
+  for (const ParameterSetting& setting : service.parameters) {
+    const auto info =
+        std::find_if(kind.parameters.begin(), kind.parameters.end(),
+                     [&](const ParameterInfo& known) { return known.name == setting.name; });
+    if (info == kind.parameters.end() || info->type != ParameterType::text) continue;
+    if (setting.text.empty() || std::filesystem::path(setting.text).is_absolute()) continue;
+    std::error_code ignored;
+    if (std::filesystem::exists(folder_of(deployment) / setting.text, ignored)) return true;
+  }
+  return false;
+}
+
+/// Why a running process cannot become what is wanted; "" when it can.
+std::string reason_to_replace(const Deployment& running, const ServiceConfig& now,
+                              const Deployment& wanted, const ServiceConfig& then) {
+  std::vector<std::string> reasons;
+  if (now.kind != then.kind) reasons.push_back(arrow("kind", now.kind, then.kind));
+  if (now.input != then.input) reasons.push_back(arrow("input", now.input, then.input));
+  if (now.qos != then.qos) reasons.push_back(arrow("qos", now.qos, then.qos));
+  if (!then.input.empty() && now.input == then.input) {
+    const std::string& from = running.service(now.input).qos;
+    const std::string& to = wanted.service(then.input).qos;
+    if (from != to) reasons.push_back(arrow("qos of " + then.input, from, to));
+  }
+  const KindInfo& kind = *find_kind(then.kind);
+  if (now.kind == then.kind && kind.methods.empty()) {
+    const std::string changed =
+        settings_text(changed_settings(kind.parameters, now.parameters, then.parameters));
+    if (!changed.empty()) reasons.push_back(changed);
+    if (folder_of(running) != folder_of(wanted) &&
+        (names_a_file(now, running) || names_a_file(then, wanted))) {
+      reasons.push_back("its files are in " + folder_of(wanted).string());
+    }
+  }
+  std::string text;
+  for (const std::string& reason : reasons) text += (text.empty() ? "" : ", ") + reason;
+  return text;
+}
+
+std::string reason_to_swap(const ServiceConfig& now, const ServiceConfig& then) {
+  if (then.method.empty()) return "";
+  const bool same_method = now.method == then.method;
+  const std::string changed = settings_text(
+      changed_settings(parameters_of(*find_kind(then.kind), then.method),
+                       same_method ? now.parameters : ParameterSettings{}, then.parameters));
+  if (same_method) return changed;
+  return arrow("method", now.method, then.method) + (changed.empty() ? "" : ", " + changed);
+}
+
+/// Whether readers of the output would no longer match its writers.
+bool claim_differs(const Deployment& running, const ServiceConfig& then) {
+  return std::any_of(
+      running.services.begin(), running.services.end(), [&](const ServiceConfig& now) {
+        return now.name == then.name && (now.strength.has_value() != then.strength.has_value() ||
+                                         (now.strength && now.lease != then.lease));
+      });
+}
+
+Change change_of(const Deployment& running, const Deployment& wanted, const ServiceConfig& then) {
+  const ServiceConfig* now = find(running, label(then), then.host);
+  if (now == nullptr) {
+    std::string detail = then.kind;
+    if (!then.method.empty()) detail += "/" + then.method;
+    if (!then.input.empty()) detail += " reads " + then.input;
+    return {ChangeAction::start, label(then), detail};
+  }
+  if (std::string reason = reason_to_replace(running, *now, wanted, then); !reason.empty()) {
+    // The new process has the new method from its start.
+    const std::string swapped = now->kind == then.kind ? reason_to_swap(*now, then) : "";
+    if (!swapped.empty()) reason += ", " + swapped;
+    return {ChangeAction::replace, label(then), reason,
+            source_of(running, *now) == source_of(wanted, then)};
+  }
+  const std::string policy =
+      now->restart == then.restart
+          ? ""
+          : arrow("restart", policy_name(now->restart), policy_name(then.restart));
+  if (std::string reason = reason_to_swap(*now, then); !reason.empty()) {
+    return {ChangeAction::swap, label(then), reason + (policy.empty() ? "" : ", " + policy)};
+  }
+  if (!policy.empty()) return {ChangeAction::adjust, label(then), policy};
+  return {ChangeAction::keep, label(then), ""};
+}
+
+}  // namespace
+
+std::string_view action_name(ChangeAction action) {
+  switch (action) {
+    case ChangeAction::keep:
+      return "keep";
+    case ChangeAction::adjust:
+      return "adjust";
+    case ChangeAction::swap:
+      return "swap";
+    case ChangeAction::start:
+      return "start";
+    case ChangeAction::replace:
+      return "replace";
+    case ChangeAction::stop:
+      return "stop";
+  }
+  return "unknown";
+}
+
+const Change& Plan::of(std::string_view service) const {
+  for (const Change& change : changes) {
+    if (change.service == service) return change;
+  }
+  throw std::out_of_range("no service '" + std::string(service) + "' in the plan");
+}
+
+bool Plan::replaces(std::string_view service) const {
+  return std::any_of(changes.begin(), changes.end(), [&](const Change& change) {
+    return change.service == service && change.action == ChangeAction::replace;
+  });
+}
+
+bool Plan::stops(std::string_view service) const {
+  return std::any_of(changes.begin(), changes.end(), [&](const Change& change) {
+    return change.service == service && change.action == ChangeAction::stop;
+  });
+}
+
+bool Plan::nothing_to_do() const {
+  return std::all_of(changes.begin(), changes.end(), [](const Change& change) {
+    return change.action == ChangeAction::keep || change.action == ChangeAction::adjust;
+  });
+}
+
+Plan plan_changes(const Deployment& running, const Deployment& wanted, const std::string& host) {
+  Plan plan;
+  const auto obstacle = [&](const std::string& what) {
+    plan.obstacles.push_back(wanted.file.string() + ": " + what +
+                             " while the deployment runs; end it and start it anew with quoin up");
+  };
+  if (running.name_space != wanted.name_space) {
+    obstacle("the namespace cannot be changed from '" + running.name_space + "' to '" +
+             wanted.name_space + "'");
+  }
+  if (running.domain != wanted.domain) {
+    obstacle("the domain cannot be changed from " + std::to_string(running.domain) + " to " +
+             std::to_string(wanted.domain));
+  }
+  if (running.network != wanted.network) obstacle("the network cannot be changed");
+  if (running.security != wanted.security) obstacle("security cannot be changed");
+  for (const ServiceConfig& service : wanted.services) {
+    if (service.host != host) continue;
+    const Change change = change_of(running, wanted, service);
+    // Of two writers of one strength the readers hear one, until that is gone.
+    if (change.action == ChangeAction::replace && service.strength) {
+      obstacle("service '" + change.service + "' has a strength, and cannot be replaced (" +
+               change.detail + ")");
+    }
+    if (claim_differs(running, service)) {
+      obstacle("strength and lease of service '" + service.name + "' cannot be changed");
+    }
+    plan.changes.push_back(change);
+  }
+  for (const ServiceConfig& service : running.services) {
+    if (service.host == host && find(wanted, label(service), host) == nullptr) {
+      plan.changes.push_back({ChangeAction::stop, label(service), ""});
+    }
+  }
+  return plan;
+}
+
+std::string to_text(const Change& change) {
+  std::string text(action_name(change.action));
+  text += " " + change.service;
+  return change.detail.empty() ? text : text + ": " + change.detail;
+}
+
+}  // namespace quoin::deploy

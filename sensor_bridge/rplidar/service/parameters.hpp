@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+
+#include "core/parameters/parameter.hpp"
+
+namespace quoin::sensor_bridge::rplidar {
+
+/// What the RPLIDAR bridge can be told; names as in the vendor's ROS driver where it has them.
+struct RplidarParameters {
+  std::string serial_port = "auto";
+  std::int64_t serial_baudrate = 0;  ///< [bit/s]; 0 finds it
+  std::string scan_mode;             ///< empty for the one that the device calls typical
+  double scan_frequency = 0.0;       ///< [Hz] 0 for the device's own
+  bool inverted = false;
+  std::int64_t bins = 0;            ///< 0: true bearings
+  double range_min = 0.1;           ///< [m]
+  double range_max = 0.0;           ///< [m] 0 for what the device says of the scan mode
+  double range_stddev = 0.010;      ///< [m]
+  double bearing_stddev = 0.00197;  ///< [rad]
+  double range_bias_stddev = 0.0;   ///< [m]
+  std::string frame = "laser";
+
+  static constexpr auto fields() {
+    using P = RplidarParameters;
+    return std::tuple{
+        field(&P::serial_port, "serial_port",
+              "serial device (./ is relative to the deployment file), tcp://host[:20108] or "
+              "udp://host[:8089]; auto takes the only USB serial adapter of the usual type"),
+        field(&P::serial_baudrate, "serial_baudrate", "", 0.0, 4000000.0,
+              "bits a second of a serial port, 256000 for an S1; 0 tries the usual ones"),
+        field(&P::scan_mode, "scan_mode",
+              "name of a scan mode, such as DenseBoost; empty for the one that the device calls "
+              "typical"),
+        field(&P::scan_frequency, "scan_frequency", "Hz", 0.0, 30.0,
+              "revolutions a second; 0 for the device's own choice"),
+        field(&P::inverted, "inverted", "the device is mounted upside down"),
+        field(&P::bins, "bins", "", 0.0, 32768.0,
+              "resample to so many equally spaced bearings; 0 keeps the measured ones"),
+        field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shortest range that is measured"),
+        field(&P::range_max, "range_max", "m", 0.0, 1000.0,
+              "longest range that is measured; 0 for what the device says"),
+        field(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "noise of each range, declared"),
+        field(&P::bearing_stddev, "bearing_stddev", "rad", 0.0, 0.1,
+              "noise of each bearing, declared"),
+        field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
+              "error common to all ranges, declared"),
+        field(&P::frame, "frame_id", "frame of the sensor (REP-105)")};
+  }
+};
+
+}  // namespace quoin::sensor_bridge::rplidar

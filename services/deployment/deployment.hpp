@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/parameters/parameter.hpp"
+
+namespace quoin {
+
+/// Place in a file, both from 1.
+struct Position {
+  int line = 0;
+  int column = 0;
+};
+
+/// What to do when a service's process dies.
+enum class RestartPolicy {
+  always,  ///< start it again, with back-off
+  never,   ///< leave it dead
+};
+
+/// How participants find each other.
+enum class Discovery {
+  multicast,  ///< announcements to all on the network
+  server,     ///< through discovery servers, each of which suffices
+  peers,      ///< announcements to each of the listed hosts
+};
+
+struct ServerAddress {
+  std::string address;  ///< IPv4
+  std::uint16_t port = 0;
+
+  friend bool operator==(const ServerAddress&, const ServerAddress&) = default;
+};
+
+/// How long a participant is kept that is not heard of any more [s]: on the loopback interface, and
+/// on a network, where a link may fail for a while.
+inline constexpr double loopback_lease = 5.0;
+inline constexpr double network_lease = 20.0;
+
+/// The interfaces that DDS uses, and how discovery works on them.
+struct NetworkConfig {
+  /// Names (eth0), IPv4 addresses or networks (10.7.0.0/24); each host uses those of them that it
+  /// has. Empty: 127.0.0.1 alone.
+  std::vector<std::string> interfaces;
+  Discovery discovery = Discovery::peers;
+  std::vector<std::string> peers;      ///< IPv4 addresses of the hosts, with Discovery::peers
+  std::vector<ServerAddress> servers;  ///< with Discovery::server
+  /// [s] Shorter cuts of a link lose nothing with the lossless preset; a process that was killed is
+  /// forgotten after this time.
+  double lease = loopback_lease;
+
+  friend bool operator==(const NetworkConfig&, const NetworkConfig&) = default;
+};
+
+/// A network that no file describes, as texts; "" and empty lists say nothing.
+struct NetworkText {
+  std::vector<std::string> interfaces;
+  std::string discovery;
+  std::vector<std::string> peers;
+  std::vector<std::string> servers;  ///< ADDRESS or ADDRESS:PORT
+};
+
+/// DDS Security: every participant proves its identity and has permissions of its own.
+struct SecurityConfig {
+  std::filesystem::path directory;  ///< of the keys
+  bool encrypt = true;              ///< messages are encrypted, not only signed
+
+  friend bool operator==(const SecurityConfig&, const SecurityConfig&) = default;
+};
+
+struct ServiceConfig {
+  std::string name;
+  std::string kind;
+  std::string input;  ///< name of the service whose output is read; "" for sources
+  std::string
+      method;       ///< the kind's default when the file names none; "" for kinds without methods
+  std::string qos;  ///< preset of the output topic: sensor, feature, state or lossless
+  ParameterSettings parameters;  ///< validated against the method or kind
+  RestartPolicy restart = RestartPolicy::always;
+  std::string host;  ///< where it runs; "" when the deployment names no hosts
+  /// Of this instance's claim to the output, when there are several of one name; the strongest that
+  /// lives is heard.
+  std::optional<int> strength;
+  /// With a strength: how long this instance may be silent before the next one is heard.
+  std::chrono::milliseconds lease{100};
+  Position position;  ///< of the service in the file
+};
+
+/// A deployment file, validated: every name exists, every input fits, there is no cycle.
+struct Deployment {
+  std::filesystem::path file;
+  std::string name_space;  ///< prefix of all topics
+  int domain = 0;          ///< DDS domain, 0..232
+  NetworkConfig network;
+  std::optional<SecurityConfig> security;
+  std::vector<ServiceConfig> services;  ///< inputs before those who read them, strong before weak
+
+  /// By label, or by name: then the strongest of its instances. Throws std::out_of_range when there
+  /// is no such service.
+  [[nodiscard]] const ServiceConfig& service(std::string_view name) const;
+  /// Services that read the output of `name`.
+  [[nodiscard]] std::vector<const ServiceConfig*> readers_of(std::string_view name) const;
+};
+
+/// What tells an instance of a service from all others: the name, or name@strength where there is
+/// a strength.
+[[nodiscard]] std::string label(const ServiceConfig& service);
+
+/// One or more things wrong with a deployment file, each as "file:line:column: what; what to do",
+/// joined by line feeds in what().
+class DeploymentError : public std::runtime_error {
+ public:
+  explicit DeploymentError(std::vector<std::string> messages);
+  [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+/// Reads and validates a deployment file. Throws DeploymentError with all that is wrong.
+[[nodiscard]] Deployment load_deployment(const std::filesystem::path& file);
+
+/// The text of a deployment file, not more of it than parse_deployment takes. Throws
+/// DeploymentError.
+[[nodiscard]] std::string read_deployment(const std::filesystem::path& file);
+
+/// The same as load_deployment for text already in memory; `file` is what messages name.
+[[nodiscard]] Deployment parse_deployment(const std::string& text,
+                                          const std::filesystem::path& file);
+
+/// What `network:` with these entries would give. Throws DeploymentError, whose messages name no
+/// place.
+[[nodiscard]] NetworkConfig parse_network(const NetworkText& text);
+
+/// From the death of a discovery server to the next one at its address: when all have forgotten the
+/// dead one. A new server too soon would be taken for it, and not be told of those that it should
+/// know.
+[[nodiscard]] std::chrono::milliseconds discovery_pause(const NetworkConfig& network);
+
+/// The hosts that services name, each once, in the order of the services; none when all run on one.
+[[nodiscard]] std::vector<std::string> hosts_of(const Deployment& deployment);
+
+/// Topic names: <namespace>/<service>/<type in lower case>, "" of a service that publishes nothing,
+/// and two shared by all services.
+[[nodiscard]] std::string output_topic(const Deployment& deployment, const ServiceConfig& service);
+[[nodiscard]] std::string status_topic(std::string_view name_space);
+[[nodiscard]] std::string control_request_topic(std::string_view name_space);
+[[nodiscard]] std::string control_reply_topic(std::string_view name_space);
+
+/// What control requests to the supervisor of a host's share are addressed to; no service is called
+/// so.
+[[nodiscard]] std::string supervisor_name(std::string_view host);
+
+}  // namespace quoin

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/deployment/deployment.hpp"
+#include "services/keys/certificate.hpp"
+
+namespace quoin {
+
+/// Topics of one domain that an identity may write and read; * stands for any characters.
+struct TopicRule {
+  int domain = 0;
+  std::vector<std::string> writes;
+  std::vector<std::string> reads;
+
+  friend bool operator==(const TopicRule&, const TopicRule&) = default;
+};
+
+/// What `identity` may do in the deployment: a service writes its own output, heartbeats and
+/// replies, and reads its input and requests; the operator writes requests and reads everything;
+/// the observer reads results and heartbeats. Throws std::out_of_range when the deployment has no
+/// such service.
+[[nodiscard]] TopicRule rule_of(const Deployment& deployment, const std::string& identity);
+
+/// The permissions document of DDS Security 1.1; everything else is denied.
+[[nodiscard]] std::string permissions_text(const std::string& identity, const Validity& validity,
+                                           const std::vector<TopicRule>& rules);
+
+/// A point in time as it stands in the document (UTC).
+[[nodiscard]] std::string permissions_time(std::chrono::system_clock::time_point time);
+
+}  // namespace quoin

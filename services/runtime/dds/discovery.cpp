@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/dds/discovery.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDescription.hpp>
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+// Names come from anybody in the domain and go to terminals and heartbeats.
+constexpr std::size_t longest_name = 80;
+constexpr std::size_t most_misfits = 32;
+
+std::string printable(const std::string& text) {
+  std::string result = text.substr(0, longest_name);
+  std::replace_if(
+      result.begin(), result.end(),
+      [](char character) { return character < ' ' || character > '~'; }, '?');
+  return result;
+}
+
+std::string chosen(const std::vector<const char*>& names, int value) {
+  const auto index = static_cast<std::size_t>(value);
+  return index < names.size() ? names[index] : "kind " + std::to_string(value);
+}
+
+std::string durability_name(int kind) {
+  return chosen({"volatile", "transient-local", "transient", "persistent"}, kind);
+}
+std::string reliability_name(int kind) { return chosen({"?", "best effort", "reliable"}, kind); }
+std::string ownership_name(int kind) { return chosen({"shared", "exclusive"}, kind); }
+std::string liveliness_name(int kind) {
+  return chosen({"automatic", "manual by participant", "manual by topic"}, kind);
+}
+std::string time_text(std::int64_t nanoseconds) {
+  if (nanoseconds >= 1'000'000'000LL * 3600 * 24 * 365) return "none";
+  return std::to_string(nanoseconds / 1'000'000) + " ms";
+}
+
+// The policies of discovery data have other names than those of the DDS classes.
+template <class Qos>
+EndpointPolicies discovered(const Qos& qos, const std::string& type) {
+  return {printable(type),
+          qos.m_durability.kind,
+          qos.m_reliability.kind,
+          static_cast<int>(qos.m_ownership.kind),
+          qos.m_liveliness.kind,
+          qos.m_liveliness.lease_duration.to_ns(),
+          qos.m_deadline.period.to_ns()};
+}
+
+template <class Qos>
+EndpointPolicies own(const Qos& qos, const std::string& type) {
+  return {type,
+          qos.durability().kind,
+          qos.reliability().kind,
+          static_cast<int>(qos.ownership().kind),
+          qos.liveliness().kind,
+          qos.liveliness().lease_duration.to_ns(),
+          qos.deadline().period.to_ns()};
+}
+
+struct Misfit {
+  std::string policy, offered, requested;
+};
+
+std::vector<Misfit> misfits(const EndpointPolicies& offered, const EndpointPolicies& requested) {
+  std::vector<Misfit> found;
+  if (offered.type != requested.type) return {{"type", offered.type, requested.type}};
+  const auto check = [&](bool fits, const char* policy, std::string offers, std::string requests) {
+    if (!fits) found.push_back({policy, std::move(offers), std::move(requests)});
+  };
+  check(offered.durability >= requested.durability, "durability",
+        durability_name(offered.durability), durability_name(requested.durability));
+  check(offered.reliability >= requested.reliability, "reliability",
+        reliability_name(offered.reliability), reliability_name(requested.reliability));
+  check(offered.ownership == requested.ownership, "ownership", ownership_name(offered.ownership),
+        ownership_name(requested.ownership));
+  check(offered.liveliness >= requested.liveliness, "liveliness",
+        liveliness_name(offered.liveliness), liveliness_name(requested.liveliness));
+  check(offered.lease <= requested.lease, "lease", time_text(offered.lease),
+        time_text(requested.lease));
+  check(offered.deadline <= requested.deadline, "deadline", time_text(offered.deadline),
+        time_text(requested.deadline));
+  return found;
+}
+
+void add_misfits(const std::string& topic, const std::string& writer,
+                 const EndpointPolicies& offered, const std::string& reader,
+                 const EndpointPolicies& requested, std::vector<std::string>& texts) {
+  for (const Misfit& misfit : misfits(offered, requested)) {
+    std::string text = topic + ": " + misfit.policy + ": " + writer + " offers " + misfit.offered +
+                       ", " + reader + " requests " + misfit.requested;
+    const bool known = std::find(texts.begin(), texts.end(), text) != texts.end();
+    if (!known && texts.size() < most_misfits) texts.push_back(std::move(text));
+  }
+}
+
+std::array<std::uint8_t, 12> prefix_of(const rtps::GUID_t& guid) {
+  std::array<std::uint8_t, 12> prefix{};
+  std::copy_n(guid.guidPrefix.value, prefix.size(), prefix.begin());
+  return prefix;
+}
+
+std::array<std::uint8_t, 16> key_of(const rtps::GUID_t& guid) {
+  std::array<std::uint8_t, 16> key{};
+  std::copy_n(guid.guidPrefix.value, 12, key.begin());
+  std::copy_n(guid.entityId.value, 4, key.begin() + 12);
+  return key;
+}
+
+}  // namespace
+
+EndpointPolicies policies_of(const dds::DataWriter& writer) {
+  return own(writer.get_qos(), writer.get_topic()->get_type_name());
+}
+
+EndpointPolicies policies_of(const dds::DataReader& reader) {
+  return own(reader.get_qos(), reader.get_topicdescription()->get_type_name());
+}
+
+KnownEndpoints::KnownEndpoints(std::string own_name) : own_name_(std::move(own_name)) {}
+
+// Without the namespace that it shares with this participant.
+std::string KnownEndpoints::name_of(const Prefix& participant) const {
+  const auto known = participants_.find(participant);
+  if (known == participants_.end() || known->second.empty()) return "a participant without name";
+  const std::size_t slash = own_name_.rfind('/');
+  const std::string name_space = own_name_.substr(0, slash == std::string::npos ? 0 : slash + 1);
+  return known->second.starts_with(name_space) ? known->second.substr(name_space.size())
+                                               : known->second;
+}
+
+std::vector<std::string> KnownEndpoints::misfits_of_writer(const std::string& topic,
+                                                           const EndpointPolicies& offered) const {
+  const std::string own = own_name_.substr(own_name_.rfind('/') + 1);
+  std::vector<std::string> texts;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [guid, reader] : readers_) {
+    if (reader.topic != topic) continue;
+    add_misfits(topic, own, offered, name_of(reader.participant), reader.policies, texts);
+  }
+  return texts;
+}
+
+std::vector<std::string> KnownEndpoints::misfits_of_reader(
+    const std::string& topic, const EndpointPolicies& requested) const {
+  const std::string own = own_name_.substr(own_name_.rfind('/') + 1);
+  std::vector<std::string> texts;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [guid, writer] : writers_) {
+    if (writer.topic != topic) continue;
+    add_misfits(topic, name_of(writer.participant), writer.policies, own, requested, texts);
+  }
+  return texts;
+}
+
+std::vector<std::string> KnownEndpoints::written_topics() const {
+  std::vector<std::string> topics;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [guid, writer] : writers_) topics.push_back(writer.topic);
+  std::sort(topics.begin(), topics.end());
+  topics.erase(std::unique(topics.begin(), topics.end()), topics.end());
+  return topics;
+}
+
+void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
+                                              rtps::ParticipantDiscoveryInfo&& info) {
+  const std::lock_guard lock(mutex_);
+  const Prefix prefix = prefix_of(info.info.m_guid);
+  if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
+      info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
+    participants_.erase(prefix);
+    const auto theirs = [&](const auto& entry) { return entry.second.participant == prefix; };
+    std::erase_if(writers_, theirs);
+    std::erase_if(readers_, theirs);
+  } else {
+    participants_[prefix] = printable(info.info.m_participantName.to_string());
+  }
+}
+
+void KnownEndpoints::on_publisher_discovery(dds::DomainParticipant*,
+                                            rtps::WriterDiscoveryInfo&& info) {
+  const std::lock_guard lock(mutex_);
+  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
+    writers_.erase(key_of(info.info.guid()));
+  } else {
+    writers_[key_of(info.info.guid())] = {
+        prefix_of(info.info.guid()), info.info.topicName().to_string(),
+        discovered(info.info.m_qos, info.info.typeName().to_string())};
+  }
+}
+
+void KnownEndpoints::on_subscriber_discovery(dds::DomainParticipant*,
+                                             rtps::ReaderDiscoveryInfo&& info) {
+  const std::lock_guard lock(mutex_);
+  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
+    readers_.erase(key_of(info.info.guid()));
+  } else {
+    readers_[key_of(info.info.guid())] = {
+        prefix_of(info.info.guid()), info.info.topicName().to_string(),
+        discovered(info.info.m_qos, info.info.typeName().to_string())};
+  }
+}
+
+}  // namespace quoin::runtime

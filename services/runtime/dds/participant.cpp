@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/dds/participant.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
+#include "services/keys/key_check.hpp"
+#include "services/runtime/dds/interfaces.hpp"
+#include "services/runtime/dds/network_qos_impl.hpp"
+#include "services/runtime/dds/participant_impl.hpp"
+#include "services/runtime/dds/security.hpp"
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+namespace {
+
+// Participants of one process talk through the transport like all others: the short cut inside a
+// process never repeats a sample that a full lossless reader had to reject.
+void disable_intraprocess_delivery() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
+
+dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
+                                          const std::vector<std::string>& addresses) {
+  dds::DomainParticipantQos qos = network_qos(config, addresses);
+  qos.name(config.name);
+  if (config.security) add_security(*config.security, config.identity, qos);
+  return qos;
+}
+
+}  // namespace
+
+ParticipantConfig participant_config(const Deployment& deployment, const std::string& name,
+                                     std::string_view identity) {
+  const std::string keys = identity.empty() ? name : std::string(identity);
+  require_keys(deployment, {keys});
+  return {.domain = deployment.domain,
+          .name = deployment.name_space + "/" + name,
+          .network = deployment.network,
+          .security = deployment.security,
+          .identity = keys};
+}
+
+Participant::Participant(const ParticipantConfig& config)
+    : impl_(std::make_unique<Impl>(
+          config.security ? watch_security(*config.security, config.identity, config.name)
+                          : std::make_unique<KnownEndpoints>(config.name))) {
+  disable_intraprocess_delivery();
+  const auto addresses = resolve_interfaces(config.network.interfaces, host_addresses());
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
+                                                   participant_qos(config, addresses),
+                                                   impl_->endpoints.get(), dds::StatusMask::none());
+  if (impl_->participant == nullptr && config.server) {
+    const ServerAddress& server = config.network.servers.at(*config.server);
+    throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
+                             std::to_string(server.port) + "; does another process use that port?");
+  }
+  if (impl_->participant == nullptr) {
+    throw std::runtime_error("cannot join DDS domain " + std::to_string(config.domain) + " on " +
+                             addresses.front() + "; is that interface up, and are fewer than " +
+                             std::to_string(max_participants) + " participants running in it?");
+  }
+  impl_->publisher = impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+  impl_->subscriber = impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  if (impl_->publisher == nullptr || impl_->subscriber == nullptr) {
+    throw std::runtime_error("cannot create DDS publisher and subscriber");
+  }
+}
+
+Participant::~Participant() {
+  if (impl_->participant == nullptr) return;
+  impl_->participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(impl_->participant);
+}
+
+std::vector<std::string> Participant::written_topics() const {
+  return impl_->endpoints->written_topics();
+}
+
+dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSupport& type) {
+  if (auto* known = participant->lookup_topicdescription(name)) {
+    return dynamic_cast<dds::Topic*>(known);
+  }
+  if (type.register_type(participant) != ReturnCode_t::RETCODE_OK) {
+    throw std::runtime_error("cannot register DDS type " + type.get_type_name());
+  }
+  dds::Topic* made = participant->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+  if (made == nullptr) throw std::runtime_error("cannot create DDS topic '" + name + "'");
+  return made;
+}
+
+void MatchState::set_matched(int count) {
+  const std::lock_guard lock(mutex_);
+  matched_ = static_cast<std::size_t>(std::max(count, 0));
+  changed_.notify_all();
+}
+
+std::size_t MatchState::matched() const {
+  const std::lock_guard lock(mutex_);
+  return matched_;
+}
+
+bool MatchState::wait(std::size_t count, std::chrono::milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [&] { return matched_ >= count; });
+}
+
+}  // namespace quoin::runtime

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/deployment/deployment.hpp"
+
+namespace quoin::runtime {
+
+/// How a process takes part in DDS.
+struct ParticipantConfig {
+  int domain = 0;
+  std::string name;  ///< shown by DDS tools
+  NetworkConfig network = {};
+  /// It is this one of the network's discovery servers.
+  std::optional<std::size_t> server = std::nullopt;
+  std::optional<SecurityConfig> security = {};
+  std::string identity = {};  ///< whose keys it has, with security
+};
+
+/// Of a participant that takes part in `deployment` as <namespace>/`name`, where security is on
+/// with the keys of `identity`, or of `name` where that is "". Throws DeploymentError when they do
+/// not let it.
+[[nodiscard]] ParticipantConfig participant_config(const Deployment& deployment,
+                                                   const std::string& name,
+                                                   std::string_view identity = "");
+
+/// A DDS participant that speaks UDP on the interfaces of its network alone (127.0.0.1 when that
+/// names none), sends multicast only for Discovery::multicast, and leaves no shared-memory file.
+/// Throws std::runtime_error when it cannot be created.
+class Participant {
+ public:
+  explicit Participant(const ParticipantConfig& config);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  /// Topics that other participants are known to write to.
+  [[nodiscard]] std::vector<std::string> written_topics() const;
+
+  struct Impl;
+  [[nodiscard]] Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/dds/qos.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "services/runtime/dds/qos_impl.hpp"
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+
+QosPreset qos_preset(std::string_view name) {
+  if (name == "sensor") return QosPreset::sensor;
+  if (name == "feature") return QosPreset::feature;
+  if (name == "state") return QosPreset::state;
+  if (name == "control") return QosPreset::control;
+  if (name == "lossless") return QosPreset::lossless;
+  throw std::invalid_argument("unknown QoS preset '" + std::string(name) + "'");
+}
+
+TopicQos output_qos(const ServiceConfig& service) {
+  TopicQos qos = qos_preset(service.qos);
+  qos.strength = service.strength;
+  qos.lease = service.lease;
+  return qos;
+}
+
+TopicQos onlooker_qos(const ServiceConfig& service) {
+  TopicQos qos = output_qos(service);
+  if (qos.preset == QosPreset::lossless) qos.preset = QosPreset::feature;
+  return qos;
+}
+
+namespace {
+
+// Services of one deployment that share the status topic.
+constexpr int max_instances = 512;
+// Samples a lossless endpoint holds before the writer has to wait.
+constexpr int lossless_samples = 256;
+
+int depth(QosPreset preset) {
+  switch (preset) {
+    case QosPreset::sensor:
+      return 5;
+    case QosPreset::feature:
+      return 32;
+    case QosPreset::state:
+      return 1;
+    case QosPreset::control:
+      return 256;
+    case QosPreset::lossless:
+      break;
+  }
+  return lossless_samples;
+}
+
+// The policies that writer and reader share.
+template <class Qos>
+Qos common_qos(Qos qos, const TopicQos& topic) {
+  const QosPreset preset = topic.preset;
+  const bool keyed = preset == QosPreset::state;
+  const int samples = depth(preset);
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = Duration_t(1, 0);
+  qos.durability().kind =
+      keyed ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind =
+      preset == QosPreset::lossless ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = samples;
+  // Fast DDS refuses what goes beyond its own small defaults, so all limits are set.
+  qos.resource_limits().max_instances = keyed ? max_instances : 1;
+  qos.resource_limits().max_samples_per_instance = samples;
+  qos.resource_limits().max_samples = keyed ? max_instances * samples : samples;
+  qos.resource_limits().allocated_samples = 1;
+  // Data keeps its memory from scan to scan. What strangers may send must not: a few oversized
+  // requests would leave every place of the history as large as the largest of them.
+  qos.endpoint().history_memory_policy =
+      preset == QosPreset::control
+          ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
+          : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  if (topic.strength) {
+    qos.ownership().kind = dds::EXCLUSIVE_OWNERSHIP_QOS;
+    // With the other two kinds of liveliness Fast DDS 2.9 never gives up a writer that was killed
+    // while another one of the topic lives.
+    qos.liveliness().kind = dds::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    const auto lease = std::chrono::nanoseconds(topic.lease).count();
+    qos.liveliness().lease_duration = Duration_t(static_cast<std::int32_t>(lease / 1'000'000'000),
+                                                 static_cast<std::uint32_t>(lease % 1'000'000'000));
+  }
+  return qos;
+}
+
+// From noticing that a sample is missing to asking for it, and from being asked to sending it
+// again. A full lossless reader rejects samples all the time: asked for at once they would be
+// rejected again.
+Duration_t repeat_delay(QosPreset preset) {
+  return Duration_t(0, preset == QosPreset::lossless ? 5'000'000 : 1'000'000);
+}
+
+}  // namespace
+
+dds::DataWriterQos writer_qos(const TopicQos& topic) {
+  dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), topic);
+  if (topic.strength) qos.ownership_strength().value = static_cast<std::uint32_t>(*topic.strength);
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
+  auto& times = qos.reliable_writer_qos().times;
+  times.heartbeatPeriod = Duration_t(0, 50'000'000);
+  times.nackResponseDelay = repeat_delay(topic.preset);
+  return qos;
+}
+
+dds::DataReaderQos reader_qos(const TopicQos& topic) {
+  dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), topic);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(topic.preset);
+  return qos;
+}
+
+}  // namespace quoin::runtime

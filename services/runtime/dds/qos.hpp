@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+#include "services/deployment/deployment.hpp"
+
+namespace quoin::runtime {
+
+/// Named sets of QoS policies; writer and reader of a topic use the same.
+enum class QosPreset {
+  sensor,    ///< reliable, volatile, keep last 5: the newest scans matter
+  feature,   ///< reliable, volatile, keep last 32
+  state,     ///< reliable, transient-local, keep last 1 per instance: late joiners get the latest
+  control,   ///< reliable, volatile, keep last 256: requests and replies
+  lossless,  ///< reliable, keep all: a slow reader slows the writer down (replay, evaluation)
+};
+
+/// Throws std::invalid_argument for an unknown name.
+[[nodiscard]] QosPreset qos_preset(std::string_view name);
+
+/// What writer and readers of one topic agree on.
+struct TopicQos {
+  QosPreset preset = QosPreset::feature;
+  /// Set where several writers stand in for each other (exclusive ownership): readers hear the
+  /// strongest that lives. What a reader has here only needs to be set.
+  std::optional<int> strength;
+  /// A writer that neither wrote nor asserted its liveliness for this long is taken for dead; the
+  /// same for all writers and readers of a topic.
+  std::chrono::milliseconds lease{100};
+
+  TopicQos(QosPreset preset_of_topic) : preset(preset_of_topic) {}
+};
+
+/// Of the output topic of `service`, for its writer and for its readers.
+[[nodiscard]] TopicQos output_qos(const ServiceConfig& service);
+
+/// Of a reader of that topic that only looks, and must not slow the writer down as a lossless one
+/// would.
+[[nodiscard]] TopicQos onlooker_qos(const ServiceConfig& service);
+
+}  // namespace quoin::runtime

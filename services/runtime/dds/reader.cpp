@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/dds/reader.hpp"
+
+#include <stdexcept>
+
+#include <fastdds/dds/core/condition/GuardCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include "services/runtime/dds/qos_impl.hpp"
+#include "services/runtime/dds/reader_impl.hpp"
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
+                       const TopicQos& qos)
+    : participant(owner), topic_name(topic) {
+  reader =
+      owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type), reader_qos(qos),
+                                                 this, dds::StatusMask::subscription_matched());
+  if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
+  reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
+}
+
+ReaderBase::Impl::~Impl() {
+  if (reader != nullptr) participant.impl().subscriber->delete_datareader(reader);
+}
+
+void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
+                                               const dds::SubscriptionMatchedStatus& status) {
+  match.set_matched(status.current_count);
+}
+
+ReaderBase::ReaderBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ReaderBase::~ReaderBase() = default;
+
+std::size_t ReaderBase::matched() const { return impl_->match.matched(); }
+
+bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds timeout) const {
+  return impl_->match.wait(count, timeout);
+}
+
+std::vector<std::string> ReaderBase::incompatible_qos() const {
+  return impl_->participant.impl().endpoints->misfits_of_reader(impl_->topic_name,
+                                                                policies_of(*impl_->reader));
+}
+
+bool ReaderBase::take_raw(void* sample) {
+  dds::SampleInfo info;
+  while (impl_->reader->take_next_sample(sample, &info) == ReturnCode_t::RETCODE_OK) {
+    if (info.valid_data) return true;  // others tell of instances that ended
+  }
+  return false;
+}
+
+struct WaitSet::Impl {
+  dds::WaitSet wait_set;
+  dds::GuardCondition woken;
+  dds::ConditionSeq active;
+};
+
+WaitSet::WaitSet() : impl_(std::make_unique<Impl>()) {
+  impl_->wait_set.attach_condition(impl_->woken);
+}
+
+WaitSet::~WaitSet() = default;
+
+void WaitSet::add(ReaderBase& reader) {
+  impl_->wait_set.attach_condition(reader.impl().reader->get_statuscondition());
+}
+
+bool WaitSet::wait(std::chrono::milliseconds timeout) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
+  const bool active =
+      impl_->wait_set.wait(impl_->active, Duration_t(static_cast<std::int32_t>(seconds.count()),
+                                                     static_cast<std::uint32_t>(rest.count()))) ==
+      ReturnCode_t::RETCODE_OK;
+  impl_->woken.set_trigger_value(false);
+  return active;
+}
+
+void WaitSet::wake() { impl_->woken.set_trigger_value(true); }
+
+}  // namespace quoin::runtime

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/dds/writer.hpp"
+
+#include <stdexcept>
+
+#include "services/runtime/dds/qos_impl.hpp"
+#include "services/runtime/dds/writer_impl.hpp"
+
+namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
+                       const TopicQos& qos)
+    : participant(owner), topic_name(topic) {
+  // The listener is given at creation: one that is set later misses the first match.
+  writer =
+      owner.impl().publisher->create_datawriter(owner.impl().topic(topic, type), writer_qos(qos),
+                                                this, dds::StatusMask::publication_matched());
+  if (writer == nullptr) throw std::runtime_error("cannot create DDS writer for '" + topic + "'");
+}
+
+WriterBase::Impl::~Impl() {
+  if (writer != nullptr) participant.impl().publisher->delete_datawriter(writer);
+}
+
+void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
+                                              const dds::PublicationMatchedStatus& status) {
+  match.set_matched(status.current_count);
+}
+
+WriterBase::WriterBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WriterBase::~WriterBase() = default;
+
+std::size_t WriterBase::matched() const { return impl_->match.matched(); }
+
+bool WriterBase::wait_for_readers(std::size_t count, std::chrono::milliseconds timeout) const {
+  return impl_->match.wait(count, timeout);
+}
+
+bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
+  return impl_->writer->wait_for_acknowledgments(
+             Duration_t(static_cast<std::int32_t>(seconds.count()),
+                        static_cast<std::uint32_t>(rest.count()))) == ReturnCode_t::RETCODE_OK;
+}
+
+std::vector<std::string> WriterBase::incompatible_qos() const {
+  return impl_->participant.impl().endpoints->misfits_of_writer(impl_->topic_name,
+                                                                policies_of(*impl_->writer));
+}
+
+void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
+
+bool WriterBase::write_raw(void* sample) { return impl_->writer->write(sample); }
+
+}  // namespace quoin::runtime

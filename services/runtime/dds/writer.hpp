@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/qos.hpp"
+
+namespace quoin::runtime {
+
+class WriterBase {
+ public:
+  ~WriterBase();
+  WriterBase(const WriterBase&) = delete;
+  WriterBase& operator=(const WriterBase&) = delete;
+
+  /// Readers matched now.
+  [[nodiscard]] std::size_t matched() const;
+  /// True once `count` readers are matched; false after `timeout`.
+  [[nodiscard]] bool wait_for_readers(std::size_t count, std::chrono::milliseconds timeout) const;
+  /// True once all matched readers have everything; false after `timeout`.
+  bool wait_for_acknowledgments(std::chrono::milliseconds timeout);
+  /// Tells the readers of a topic with strengths that this writer still lives; writing does, too.
+  void assert_liveliness();
+  /// Readers of this topic that do not fit, each with topic, policy and both sides' values.
+  [[nodiscard]] std::vector<std::string> incompatible_qos() const;
+
+  struct Impl;
+
+ protected:
+  WriterBase(std::unique_ptr<Impl> impl);
+  /// False when the sample could not be taken (lossless: the history stayed full for a second).
+  bool write_raw(void* sample);
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes messages of one of the idl types to a topic. Throws std::runtime_error when DDS refuses
+/// to create the entities. One thread at a time writes.
+template <class T>
+class Writer : public WriterBase {
+ public:
+  Writer(Participant& participant, const std::string& topic, const TopicQos& qos);
+  bool write(const T& message) { return write_raw(const_cast<T*>(&message)); }
+};
+
+}  // namespace quoin::runtime

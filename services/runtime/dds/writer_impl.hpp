@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+
+#include "services/runtime/dds/participant_impl.hpp"
+#include "services/runtime/dds/writer.hpp"
+
+namespace quoin::runtime {
+
+struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
+  Impl(Participant& owner, const std::string& topic,
+       const eprosima::fastdds::dds::TypeSupport& type, const TopicQos& qos);
+  ~Impl() override;
+
+  void on_publication_matched(
+      eprosima::fastdds::dds::DataWriter*,
+      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+
+  Participant& participant;
+  std::string topic_name;
+  MatchState match;
+  eprosima::fastdds::dds::DataWriter* writer = nullptr;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <idl/Scan.h>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "services/deployment/deployment.hpp"
+#include "services/runtime/process/activity.hpp"
+
+namespace quoin::runtime {
+
+/// Input of a source that became unusable: what has been published stays published, the service
+/// ends as failed with exit code 3 and is not started again.
+class SourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the body of a scan source works with. Numbers the scans, stamps the trace and accounts for
+/// them.
+class Source : public Activity {
+ public:
+  /// Publishes a scan whose header.stamp and header.frame are set; the rest of the header is filled
+  /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.
+  virtual bool publish(msg::Scan& scan) = 0;
+};
+
+using SourceFactory = BodyFactory<Source>;
+
+/// The main function of a scan source: command line, deployment file, participant, waiting for the
+/// readers named in the deployment, heartbeat, orderly end. The body returns when a finite source
+/// has published everything, or when `publish` or `wait_until` says false.
+/// Returns the exit code: 0 finished or stopped, 2 wrong configuration, 3 SourceError, 1 anything
+/// else.
+int run_source(int argc, char** argv, const std::string& kind, const SourceFactory& open);
+
+}  // namespace quoin::runtime

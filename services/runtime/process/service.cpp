@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/process/service.hpp"
+
+#include <exception>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "core/parameters/parameter.hpp"
+#include "core/parameters/suggestion.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+const ServiceConfig& find_service(const Deployment& deployment,
+                                          const std::string& name, const std::string& kind) {
+  std::vector<std::string> candidates;
+  for (const ServiceConfig& service : deployment.services) {
+    if (service.kind != kind) continue;
+    if (label(service) == name) return service;
+    candidates.push_back(label(service));
+  }
+  throw DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " +
+                                 kind + suggestion(name, candidates)});
+}
+
+// [s] Each pair of participants has to shake hands first, which takes ten of them that start at
+// once on a busy machine many seconds.
+double default_patience(const Deployment& deployment) {
+  return deployment.security ? 30.0 : 10.0;
+}
+
+}  // namespace
+
+Service::Service(StopSignal& stop_signal, const Deployment& deployment_file,
+                 const ServiceConfig& service_config, std::size_t readers,
+                 std::chrono::duration<double> patience_with_readers, bool held)
+    : stop(stop_signal),
+      deployment(deployment_file),
+      config(service_config),
+      participant(participant_config(deployment, label(config))),
+      heartbeat(participant, deployment, config),
+      expected_readers(readers),
+      patience(patience_with_readers),
+      succession(held) {}
+
+bool Service::wait_for_readers(const WriterBase& writer) {
+  using std::chrono::milliseconds;
+  using std::chrono::steady_clock;
+  if (expected_readers == 0) return !stop.requested();
+  heartbeat.set_state(msg::ServiceState::STATE_STARTING,
+                      "waiting for " + std::to_string(expected_readers) + " readers");
+  const auto deadline =
+      steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(patience);
+  while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
+    if (stop.requested()) return false;
+    if (!succession.held() && steady_clock::now() > deadline) {
+      spdlog::warn("only {} of {} readers are there after {} s; going on without the others",
+                   writer.matched(), expected_readers, patience.count());
+      break;
+    }
+  }
+  return !stop.requested();
+}
+
+int run_service(
+    int argc, char** argv, const std::string& kind,
+    const std::function<void(const Deployment&, const ServiceConfig&)>& check,
+    const std::function<int(Service&)>& run) {
+  CLI::App app{"Quoin service of kind " + kind + ", as described in a deployment file"};
+  std::string deployment_file;
+  std::string service_name;
+  std::string deployment_name;
+  std::size_t observers = 0;
+  std::optional<double> patience;
+  bool held = false;
+  app.add_option("--deployment", deployment_file, "Deployment file (YAML)")->required();
+  app.add_option("--service", service_name, "Name of this service in it")->required();
+  app.add_option("--observers", observers,
+                 "Readers outside the deployment to wait for before the first scan");
+  app.add_option("--patience", patience,
+                 "Seconds to wait for readers before going on without them (10, with security 30)")
+      ->check(CLI::Range(0.0, 3600.0));
+  app.add_option("--deployment-name", deployment_name,
+                 "What the deployment file is a copy of: messages name that, and paths in it count "
+                 "from its folder");
+  app.add_flag("--held", held,
+               "Take over from a running process of this service when asked to; publish nothing "
+               "before");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_configuration;
+  }
+
+  spdlog::set_default_logger(spdlog::stderr_color_mt(service_name));
+  spdlog::set_pattern("%H:%M:%S.%e [%n] %^%l%$ %v");
+  try {
+    StopSignal stop;
+    if (deployment_name.empty()) deployment_name = deployment_file;
+    const Deployment deployment =
+        parse_deployment(read_deployment(deployment_file), deployment_name);
+    const ServiceConfig& config = find_service(deployment, service_name, kind);
+    check(deployment, config);
+    Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers,
+                    std::chrono::duration<double>(patience.value_or(default_patience(deployment))),
+                    held);
+    return run(service);
+  } catch (const DeploymentError& error) {
+    for (const std::string& message : error.messages()) spdlog::error("{}", message);
+    return exit_configuration;
+  } catch (const ParameterError& error) {
+    spdlog::error("{}: parameter '{}': {}", deployment_name, error.parameter(), error.what());
+    return exit_configuration;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return exit_failure;
+  }
+}
+
+}  // namespace quoin::runtime

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "services/deployment/deployment.hpp"
+#include "services/deployment/exit_code.hpp"
+#include "services/runtime/process/heartbeat.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/process/stop_signal.hpp"
+#include "services/runtime/node/succession.hpp"
+
+namespace quoin::runtime {
+
+/// What every service process has.
+struct Service {
+  StopSignal& stop;
+  const Deployment& deployment;
+  const ServiceConfig& config;
+  Participant participant;
+  Heartbeat heartbeat;
+  /// Readers of the output to wait for before the input is opened.
+  std::size_t expected_readers;
+  std::chrono::duration<double> patience;  ///< with readers that are not there
+  Succession succession;
+
+  /// `held`: to take over from another process of the service.
+  Service(StopSignal& stop_signal, const Deployment& deployment_file,
+          const ServiceConfig& service_config, std::size_t readers,
+          std::chrono::duration<double> patience_with_readers, bool held);
+
+  /// Waits until `writer` has the expected readers. Goes on without them when its patience has
+  /// ended, since a reader that crashed must not hold up the others, but not when held: the other
+  /// process is still at work. False when asked to stop meanwhile.
+  [[nodiscard]] bool wait_for_readers(const WriterBase& writer);
+};
+
+/// The part of main that all services share: command line (--deployment FILE --service NAME), log,
+/// deployment file, signals. `check` runs before DDS is touched, for errors in the configuration
+/// that only the service can find; `run` does the work and returns the exit code.
+int run_service(
+    int argc, char** argv, const std::string& kind,
+    const std::function<void(const Deployment&, const ServiceConfig&)>& check,
+    const std::function<int(Service&)>& run);
+
+}  // namespace quoin::runtime

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "services/runtime/process/pulse.hpp"
+
+namespace quoin::runtime {
+
+/// Tells the service manager that started this process how it is, in systemd's notify protocol
+/// (sd_notify(3)). Does nothing where there is none (NOTIFY_SOCKET is not set).
+class SupervisorLink {
+ public:
+  SupervisorLink();
+  ~SupervisorLink();
+  SupervisorLink(const SupervisorLink&) = delete;
+  SupervisorLink& operator=(const SupervisorLink&) = delete;
+
+  /// From now on the service does what it is there for. Where the manager wants signs of life
+  /// (WATCHDOG_USEC), it gets them from a thread at twice that rate, as long as the pulse is not
+  /// overdue by half that period.
+  void ready();
+  /// One line for who asks how the service is.
+  void status(const std::string& text) const;
+  void stopping();
+
+  [[nodiscard]] Pulse& pulse() { return pulse_; }
+
+ private:
+  void watch(std::chrono::microseconds period);
+
+  Pulse pulse_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ready_ = false;
+  bool stopping_ = false;
+  bool ending_ = false;
+  std::thread watchdog_;
+};
+
+}  // namespace quoin::runtime

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/topics/corners.hpp"
+
+namespace quoin::messages {
+
+void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode,
+                  msg::Corners& out) {
+  out.covariance_mode(covariance_mode);
+  out.corners().resize(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner& corner = corners[i];
+    const CornerEstimate& estimate = corner.estimate;
+    const Ellipse ellipse95 = ellipse(estimate.covariance, chi_square_2_95);
+    msg::Corner& message = out.corners()[i];
+    message.x(estimate.position.x());
+    message.y(estimate.position.y());
+    message.covariance_xx(estimate.covariance(0, 0));
+    message.covariance_xy(estimate.covariance(0, 1));
+    message.covariance_yy(estimate.covariance(1, 1));
+    message.ellipse_area(one_sigma_ellipse_area(estimate.covariance));
+    message.ellipse95_major(ellipse95.semi_major);
+    message.ellipse95_minor(ellipse95.semi_minor);
+    message.ellipse95_direction(ellipse95.direction);
+    message.angle(corner.angle);
+    message.gap(corner.gap);
+    message.extrapolation(corner.extrapolation);
+    message.first_line(static_cast<std::uint32_t>(corner.first_line));
+    message.second_line(static_cast<std::uint32_t>(corner.second_line));
+  }
+}
+
+}  // namespace quoin::messages

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads real recordings, where they are at hand.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sensor_bridge/replay/playback.hpp"
+#include "sensor_bridge/recordings/scan_files.hpp"
+
+namespace quoin::sensor_bridge {
+namespace {
+
+class RealData : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const char* directory = std::getenv("QUOIN_DATA_DIR");
+    folder_ = directory != nullptr ? directory : QUOIN_DEFAULT_DATA_DIR;
+    if (!std::filesystem::exists(folder_ / "carmen")) {
+      GTEST_SKIP() << "no recordings in " << folder_ << "; set QUOIN_DATA_DIR to run this test";
+    }
+  }
+
+  // Number of scans; checks what holds for each of them.
+  std::size_t read_log(const std::string& name, std::size_t points, Playback& playback) {
+    ScanFiles files(folder_ / "carmen" / name, ScanFormat::automatic, std::numbers::pi);
+    RecordedScan scan;
+    std::size_t count = 0;
+    double now = 0.0;
+    while (files.next(scan)) {
+      EXPECT_EQ(scan.ranges.size(), points);
+      EXPECT_EQ(scan.bearings.size(), points);
+      EXPECT_TRUE(scan.pose && scan.odometry && scan.stamp);
+      EXPECT_TRUE(std::all_of(scan.ranges.begin(), scan.ranges.end(),
+                              [](float range) { return range > 0.0F && range < 82.0F; }));
+      const double due = playback.due(scan, now);
+      EXPECT_TRUE(due >= now && due <= now + Playback::longest_period);
+      now = due;
+      ++count;
+    }
+    return count;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(RealData, IntelLogIsReadWhole) {
+  Playback playback(1.0, 10.0);
+  EXPECT_EQ(read_log("intel-corrected.log.gz", 180, playback), 910U);
+  EXPECT_EQ(playback.bad_stamps(), 5U);
+}
+
+TEST_F(RealData, FreiburgLogIsReadWhole) {
+  Playback playback(1.0, 10.0);
+  EXPECT_EQ(read_log("freiburg-079-corrected.log.gz", 360, playback), 4791U);
+  EXPECT_EQ(playback.bad_stamps(), 0U);
+}
+
+TEST_F(RealData, InfiniteCorridorLogIsReadWholeAlthoughItsStampsOverflow) {
+  Playback playback(1.0, 10.0);
+  EXPECT_EQ(read_log("infinite-corridor-corrected.log.gz", 180, playback), 1941U);
+  EXPECT_EQ(playback.bad_stamps(), 1940U);  // they run backwards, then stand still
+}
+
+TEST_F(RealData, RplidarRevolutionsAreReadWhole) {
+  ScanFiles files(folder_ / "rplidar_c1_static", ScanFormat::automatic, std::numbers::pi);
+  std::vector<std::size_t> points;
+  RecordedScan scan;
+  while (files.next(scan)) {
+    points.push_back(scan.ranges.size());
+    EXPECT_TRUE(scan.first_of_file);
+    EXPECT_TRUE(std::is_sorted(scan.bearings.begin(), scan.bearings.end()));
+  }
+  EXPECT_THAT(points, ::testing::ElementsAre(594, 556, 624, 657, 665, 609, 624, 667, 672, 664));
+}
+
+}  // namespace
+}  // namespace quoin::sensor_bridge

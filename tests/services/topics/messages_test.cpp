@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "services/topics/corners.hpp"
+#include "services/topics/lines.hpp"
+#include "services/topics/segments.hpp"
+
+namespace quoin::messages {
+namespace {
+
+TEST(Messages, SensorModelGoesThereAndBack) {
+  const SensorModel model{0.01, 0.002, 0.05};
+  const SensorModel back = sensor_model(sensor_model_message(model));
+  EXPECT_EQ(back.range_stddev, 0.01);
+  EXPECT_EQ(back.bearing_stddev, 0.002);
+  EXPECT_EQ(back.range_bias_stddev, 0.05);
+}
+
+TEST(Messages, SegmentsWithRangesOutsideThePointsAreInvalid) {
+  msg::Segments message;
+  message.bearings().resize(10);
+  message.ranges().resize(10);
+  message.segments().resize(1);
+  message.segments()[0].begin(2);
+  message.segments()[0].end(10);
+  EXPECT_TRUE(valid(message));
+  message.segments()[0].end(11);
+  EXPECT_FALSE(valid(message));
+  message.segments()[0].begin(9);
+  message.segments()[0].end(8);
+  EXPECT_FALSE(valid(message));
+  message.segments().clear();
+  message.ranges().resize(9);
+  EXPECT_FALSE(valid(message));
+}
+
+TEST(Messages, LinesGoThereAndBack) {
+  // The wall x = 2 seen at y = -1 and y = 1.
+  const std::vector<double> range{std::sqrt(5.0), std::sqrt(5.0)};
+  const std::vector<double> bearing{std::atan2(-1.0, 2.0), std::atan2(1.0, 2.0)};
+  const std::vector<double> inverse_range{1.0 / range[0], 1.0 / range[1]};
+  const std::vector<double> cosine{2.0 / range[0], 2.0 / range[1]};
+  const std::vector<double> sine{-1.0 / range[0], 1.0 / range[1]};
+  const std::vector<double> x{2.0, 2.0};
+  const std::vector<double> y{-1.0, 1.0};
+  const PointsView points{range, bearing, inverse_range, cosine, sine, x, y};
+  LineEstimate estimate{{0.0, 2.0}, Eigen::Matrix2d::Zero()};
+  estimate.covariance << 1e-4, 2e-5, 2e-5, 3e-4;
+
+  msg::Lines message;
+  append_line(estimate, points, SensorModel{}, 7, message);
+  append_failure(FitFailure::through_sensor, 8, message);
+  ASSERT_EQ(message.lines().size(), 1U);
+  EXPECT_EQ(message.lines()[0].segment(), 7U);
+  EXPECT_EQ(message.lines()[0].points(), 2U);
+  EXPECT_NEAR(message.lines()[0].chi_square(), 0.0, 1e-12);
+  ASSERT_EQ(message.failures().size(), 1U);
+  EXPECT_EQ(message.failures()[0].reason(), "through_sensor");
+
+  std::vector<LineSegment> lines;
+  line_segments(message, lines);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].estimate.line.r, 2.0);
+  EXPECT_EQ(lines[0].estimate.covariance, estimate.covariance);
+  EXPECT_NEAR(lines[0].start.y(), -1.0, 1e-12);
+  EXPECT_NEAR(lines[0].end.y(), 1.0, 1e-12);
+}
+
+TEST(Messages, CornersCarryTheirEllipses) {
+  Corner corner;
+  corner.estimate.position = {1.0, 2.0};
+  corner.estimate.covariance << 4e-4, 0.0, 0.0, 1e-4;
+  corner.first_line = 3;
+  corner.second_line = 4;
+  msg::Corners message;
+  fill_corners({corner}, "propagated", message);
+  ASSERT_EQ(message.corners().size(), 1U);
+  const msg::Corner& out = message.corners()[0];
+  EXPECT_NEAR(out.ellipse_area(), 3.14159265358979 * 0.02 * 0.01, 1e-12);
+  EXPECT_NEAR(out.ellipse95_major(), 0.02 * 2.447746830680816, 1e-9);
+  EXPECT_NEAR(out.ellipse95_minor(), 0.01 * 2.447746830680816, 1e-9);
+  EXPECT_NEAR(out.ellipse95_direction(), 0.0, 1e-9);
+  EXPECT_EQ(out.second_line(), 4U);
+}
+
+}  // namespace
+}  // namespace quoin::messages
