@@ -23,6 +23,7 @@
 #include "deploy/observation/table.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::deploy {
 
@@ -189,7 +190,7 @@ class Listener {
         const msg::Header& header = message_.header();
         if (header.trace().empty()) continue;  // not from a stage of this project
         comparison_.add(
-            i, {header.sensor(), header.trace().front().incarnation(), header.sequence_number()},
+            i, {topics::source(header), header.trace().front().incarnation(), topics::sequence_number(header)},
             result_of(message_));
       }
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "services/runtime/dds/qos.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::deploy {
 
@@ -22,7 +23,7 @@ bool CornerWatch::take_all(const std::function<void(const msg::Header&)>& on_sca
     const std::uint64_t received = accounting_.received();
     accounting_.receive(message_.header());
     if (accounting_.received() == received) continue;  // the same scan again
-    if (received == 0 && !joined_late_) first_number_ = message_.header().sequence_number();
+    if (received == 0 && !joined_late_) first_number_ = topics::sequence_number(message_.header());
     add(message_);
     on_scan(message_.header());
   }

@@ -10,6 +10,7 @@
 #include "core/parameters/suggestion.hpp"
 #include "services/deployment/kinds.hpp"
 #include "services/keys/key_files.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::deploy {
 
@@ -55,7 +56,7 @@ template <class T>
 void ScanJoin::take(runtime::Reader<T>& reader, std::optional<T> Parts::*part) {
   T message;
   while (reader.take(message)) {
-    const std::uint64_t number = message.header().sequence_number();
+    const std::uint64_t number = topics::sequence_number(message.header());
     newest_ = number;
     if (scan_ && number != *scan_) continue;
     parts_[number].*part = std::move(message);
@@ -95,7 +96,7 @@ Drawing ScanJoin::draw(const Parts& parts) const {
                                corner.ellipse95_direction()});
   }
   drawing.title =
-      chain_.corners->name + ", scan " + std::to_string(segments.header().sequence_number());
+      chain_.corners->name + ", scan " + std::to_string(topics::sequence_number(segments.header()));
   // The methods that made the result, which control may have swapped since the start.
   for (const msg::StageTrace& stage : parts.corners->header().trace()) {
     drawing.caption += (drawing.caption.empty() ? "" : ", ") + stage.service();

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <sstream>
 
+#include "services/topics/header.hpp"
+
 namespace quoin::topics {
 
 namespace {
@@ -22,7 +24,7 @@ constexpr double degrees_per_radian = 57.29577951308232;
 
 std::string header_text(const msg::Header& header) {
   std::ostringstream text;
-  text << header.sensor() << " #" << header.sequence_number() << " stamp "
+  text << source(header) << " #" << sequence_number(header) << " stamp "
        << fixed(static_cast<double>(header.stamp()) * 1e-9, 6) << ' ' << header.frame();
   if (header.trace().size() > 1) {
     const auto latency = header.trace().back().published() - header.trace().front().published();

@@ -35,6 +35,7 @@
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
+#include "services/topics/header.hpp"
 
 using namespace quoin;
 using namespace quoin::benchmarks;
@@ -62,7 +63,6 @@ std::vector<msg::Scan> make_scans() {
     scan.range_min(0.1F);
     scan.range_max(40.0F);
     scan.sensor_model(topics::sensor_model_message(SensorModel{}));
-    scan.header().sensor("front");
     scan.header().frame("laser");
     scan.header().trace().resize(1);
     scan.header().trace()[0].service("front");
@@ -116,7 +116,7 @@ class ServiceChain {
 
   void send() {
     msg::Scan& scan = scans_[next_ % scans_.size()];
-    scan.header().sequence_number(next_);
+    topics::set_origin(scan.header(), "front", 1, next_);
     msg::StageTrace& trace = scan.header().trace()[0];
     trace.index(next_++);
     trace.published(runtime::now_ns());

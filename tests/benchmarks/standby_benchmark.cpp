@@ -23,6 +23,7 @@
 #include "services/runtime/dds/reader.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 using namespace quoin;
 using namespace std::chrono_literals;
@@ -60,7 +61,7 @@ class Listener {
   }
 
   [[nodiscard]] const runtime::ScanAccounting& accounting() const { return accounting_; }
-  [[nodiscard]] std::uint64_t last_scan() const { return message_.header().sequence_number(); }
+  [[nodiscard]] std::uint64_t last_scan() const { return topics::sequence_number(message_.header()); }
 
  private:
   runtime::Participant participant_;

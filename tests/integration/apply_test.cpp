@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -88,9 +89,9 @@ class Apply : public testing::Test {
   /// From the first message on no scan is missing, doubled or out of order.
   void expect_every_scan() {
     ASSERT_TRUE(recorder_->wait_for(recorder_->poll() + 20)) << up_->errors();
-    std::uint64_t number = recorder_->messages().front().header().sequence_number();
+    std::uint64_t number = topics::sequence_number(recorder_->messages().front().header());
     for (const msg::Corners& message : recorder_->messages()) {
-      ASSERT_EQ(message.header().sequence_number(), number++);
+      ASSERT_EQ(topics::sequence_number(message.header()), number++);
     }
     EXPECT_EQ(recorder_->accounting().lost(), 0U);
     EXPECT_EQ(recorder_->accounting().duplicates(), 0U);
@@ -140,9 +141,9 @@ TEST_F(Apply, RewiresAddsAndRemovesWithoutTouchingTheRest) {
   const auto first = rewired["first_sequence_number"].get<std::uint64_t>();
   EXPECT_GT(first, 0U);
   expect_every_scan();
-  EXPECT_GT(recorder_->messages().back().header().sequence_number(), first);
+  EXPECT_GT(topics::sequence_number(recorder_->messages().back().header()), first);
   for (const msg::Corners& message : recorder_->messages()) {
-    const bool after = message.header().sequence_number() >= first;
+    const bool after = topics::sequence_number(message.header()) >= first;
     EXPECT_EQ(message.header().trace()[1].service(), after ? "more_walls" : "walls");
   }
   const auto after = processes({"front", "walls", "more_walls", "corners", "wctls"});

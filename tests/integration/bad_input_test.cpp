@@ -13,6 +13,7 @@
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/temporary_folder.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -33,8 +34,7 @@ const char* const chain = R"(
 
 msg::Header header(std::uint64_t sequence_number) {
   msg::Header made;
-  made.sensor("front");
-  made.sequence_number(sequence_number);
+  topics::set_origin(made, "front", 1, sequence_number);
   made.stamp(runtime::now_ns());
   made.trace().resize(1);
   made.trace()[0].service("front");
@@ -114,7 +114,7 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
     ASSERT_TRUE(writer.write(segments));
   }
   ASSERT_TRUE(recorder.wait_for(2));
-  EXPECT_EQ(recorder.messages()[1].header().sequence_number(), 2U);
+  EXPECT_EQ(topics::sequence_number(recorder.messages()[1].header()), 2U);
   EXPECT_THAT(recorder.accounting().lost_by_stage(),
               testing::ElementsAre(testing::Pair("wctls", 1)));
   EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));

@@ -11,6 +11,7 @@
 
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -83,7 +84,7 @@ TEST_F(Control, AMethodIsExchangedBetweenTwoScans) {
   EXPECT_EQ(reply.method(), "utls");
   ASSERT_TRUE(recorder_.wait_for(recorder_.poll() + 10));
   for (const msg::Corners& message : recorder_.messages()) {
-    const bool after = message.header().sequence_number() >= reply.first_sequence_number();
+    const bool after = topics::sequence_number(message.header()) >= reply.first_sequence_number();
     EXPECT_EQ(message.header().trace()[2].method(), after ? "utls" : "wctls");
     EXPECT_EQ(message.covariance_mode(), after ? "as_published" : "propagated");
   }
@@ -130,7 +131,7 @@ TEST_F(Control, TheCommandLineSwapsAndSetsAndTellsTheFirstScan) {
   const auto first_set = set["first_sequence_number"].get<std::uint64_t>();
   EXPECT_LT(first_swapped, first_set);
   for (const msg::Corners& message : recorder_.messages()) {
-    const std::uint64_t number = message.header().sequence_number();
+    const std::uint64_t number = topics::sequence_number(message.header());
     EXPECT_EQ(message.header().trace()[2].method(), number >= first_swapped ? "utls" : "wctls");
     EXPECT_EQ(message.covariance_mode(), number >= first_set ? "as_published" : "propagated");
   }
@@ -163,7 +164,7 @@ class HundredSwaps : public Control, public testing::WithParamInterface<Load> {
       while (scans_.take(scan_)) seen_ = true;
       return seen_;
     }));
-    return scan_.header().sequence_number();
+    return topics::sequence_number(scan_.header());
   }
 
   runtime::Reader<msg::Scan> scans_;
@@ -189,13 +190,13 @@ TEST_P(HundredSwaps, LoseNoScanAndAreInForceAtOnce) {
   const std::uint64_t last = firsts.back().first;
   ASSERT_TRUE(tests::eventually([&] {
     recorder_.poll();
-    return recorder_.messages().back().header().sequence_number() > last;
+    return topics::sequence_number(recorder_.messages().back().header()) > last;
   }));
   auto next = firsts.begin();
   std::string expected = "wctls";
-  std::uint64_t number = recorder_.messages().front().header().sequence_number();
+  std::uint64_t number = topics::sequence_number(recorder_.messages().front().header());
   for (const msg::Corners& message : recorder_.messages()) {
-    ASSERT_EQ(message.header().sequence_number(), number) << "lost, doubled or out of order";
+    ASSERT_EQ(topics::sequence_number(message.header()), number) << "lost, doubled or out of order";
     while (next != firsts.end() && number >= next->first) expected = next++->second;
     EXPECT_EQ(message.header().trace()[2].method(), expected) << number;
     ++number;

@@ -15,6 +15,7 @@
 
 #include "services/topics/message_json.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -53,7 +54,7 @@ template <class T>
 void expect_same(const std::vector<json>& theirs, const std::vector<T>& ours) {
   ASSERT_EQ(theirs.size(), ours.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    EXPECT_EQ(ours[i].header().sequence_number(), i);
+    EXPECT_EQ(topics::sequence_number(ours[i].header()), i);
     const json expected = topics::to_json(ours[i]);
     EXPECT_TRUE(theirs[i] == expected) << json::diff(expected, theirs[i]).dump();
   }
@@ -149,8 +150,8 @@ TEST_F(Interoperability, AScanOfCycloneBecomesCorners) {
 
   ASSERT_EQ(our_scans.messages().size(), scans);
   const msg::Scan& scan = our_scans.messages().back();
-  EXPECT_EQ(scan.header().sensor(), "front");
-  EXPECT_EQ(scan.header().sequence_number(), scans - 1);
+  EXPECT_EQ(topics::source(scan.header()), "front");
+  EXPECT_EQ(topics::sequence_number(scan.header()), scans - 1);
   EXPECT_EQ(scan.header().frame(), "laser");
   EXPECT_EQ(scan.sensor_model().range_stddev(), 0.010);
   EXPECT_EQ(scan.range_max(), 40.0F);
@@ -175,7 +176,7 @@ TEST_F(Interoperability, AScanOfCycloneBecomesCorners) {
                                                                  at(-1.5, -1.75), at(2.5, -1.75)));
     ASSERT_EQ(message.header().trace().size(), 4U);
     EXPECT_EQ(message.header().trace()[0].service(), "front");
-    EXPECT_EQ(message.header().trace()[0].index(), message.header().sequence_number());
+    EXPECT_EQ(message.header().trace()[0].index(), topics::sequence_number(message.header()));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -47,7 +48,7 @@ TEST(Restart, AKilledStageThatComesBackIsCaughtUpWithAndItsLossesAreItsOwn) {
   ASSERT_TRUE(recorder.wait_for(1));
   ASSERT_TRUE(tests::eventually([&] {
     recorder.poll();
-    return recorder.messages().back().header().sequence_number() + 1 == published;
+    return topics::sequence_number(recorder.messages().back().header()) + 1 == published;
   }));
   // Every scan is delivered or lost, and the lost ones are on the account of the stage that was
   // killed.

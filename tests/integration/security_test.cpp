@@ -13,6 +13,7 @@
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/keys.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -68,8 +69,7 @@ class Intruder {
 
   void act() {
     msg::Scan scan;
-    scan.header().sensor(name_);
-    scan.header().sequence_number(number_++);
+    topics::set_origin(scan.header(), name_, 1, number_++);
     (void)scans_.write(scan);
     msg::ControlRequest request;
     request.service("wctls");
@@ -143,15 +143,14 @@ TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
   msg::Segments sample;
   msg::Segments taken;
   for (std::size_t length = 100; length < 900; length += 25) {
-    sample.header().sensor(std::string(length, 'x'));
     for (std::size_t i = 0; i < samples; ++i) {
-      sample.header().sequence_number(i);
+      topics::set_origin(sample.header(), std::string(length, 'x'), 1, i);
       // A full history is told at once when an acknowledgement comes that makes no room.
       ASSERT_TRUE(tests::eventually([&] { return link.writer.write(sample); })) << i;
     }
     std::size_t expected = 0;
     ASSERT_TRUE(tests::eventually([&] {
-      while (link.reader.take(taken)) EXPECT_EQ(taken.header().sequence_number(), expected++);
+      while (link.reader.take(taken)) EXPECT_EQ(topics::sequence_number(taken.header()), expected++);
       return expected == samples;
     })) << expected
         << " of " << length;
@@ -238,7 +237,7 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
     EXPECT_EQ(intruder->matched(), 0U) << intruder->name();
   }
   for (const msg::Corners& message : recorder.messages()) {
-    EXPECT_EQ(message.header().sensor(), "front");
+    EXPECT_EQ(topics::source(message.header()), "front");
     EXPECT_EQ(message.header().trace()[2].method(), "wctls");
   }
   EXPECT_GT(recorder.messages().back().corners().size(), 0U);
@@ -250,7 +249,7 @@ TEST(Security, OnlyTheInvitedReadAndWrite) {
   EXPECT_TRUE(tests::eventually([&] {
     guest.act();
     recorder.poll();
-    return guest.heard() > 0 && recorder.messages().back().header().sensor() == "guest";
+    return guest.heard() > 0 && topics::source(recorder.messages().back().header()) == "guest";
   }));
 }
 

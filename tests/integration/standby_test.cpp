@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/harness/deployment.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -94,12 +95,12 @@ TEST_F(Standby, TakesOverFromAKilledAndFromAHungInstanceUntilThatReturns) {
   const std::uint64_t published = status_.latest("front").published();
   ASSERT_TRUE(tests::eventually([&] {
     recorder_.poll();
-    return recorder_.messages().back().header().sequence_number() + 1 == published;
+    return topics::sequence_number(recorder_.messages().back().header()) + 1 == published;
   }));
   // Each scan at most once and in order, and the others lost by the service that was replaced.
   const auto& messages = recorder_.messages();
   for (std::size_t i = 1; i < messages.size(); ++i) {
-    EXPECT_GT(messages[i].header().sequence_number(), messages[i - 1].header().sequence_number());
+    EXPECT_GT(topics::sequence_number(messages[i].header()), topics::sequence_number(messages[i - 1].header()));
   }
   const runtime::ScanAccounting& accounting = recorder_.accounting();
   EXPECT_EQ(accounting.duplicates(), 0U);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/accounting.hpp"
+#include "services/topics/header.hpp"
 
 #include <algorithm>
 
@@ -72,17 +73,17 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
   }
   const std::uint64_t first = same_source ? previous_->sequence_number + 1 : 0;
   // What took the place of another stage may have made more, but not of these scans.
-  std::uint64_t given = header.sequence_number() - first;
+  std::uint64_t given = topics::sequence_number(header) - first;
   for (Made& stage : made) {
     if (stage.restarted || same_source) stage.count = std::min(stage.count, given);
     given = stage.count;
   }
   const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
     if (made_of_it >= had) return;
-    losses.push_back({first, header.sequence_number() - 1, had - made_of_it, stage});
+    losses.push_back({first, topics::sequence_number(header) - 1, had - made_of_it, stage});
   };
   // Scans that were taken but never written are the source's own loss.
-  add(header.sequence_number() - first, made[0].count, header.trace()[0].service());
+  add(topics::sequence_number(header) - first, made[0].count, header.trace()[0].service());
   for (std::size_t i = 1; i < made.size(); ++i) {
     add(made[i - 1].count, made[i].count, header.trace()[i].service());
   }
@@ -95,8 +96,8 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
 bool ScanAccounting::continues_numbers(const msg::Header& header) const {
   const msg::StageTrace& source = header.trace()[0];
   if (source.incarnation() == previous_->stages[0].incarnation) return true;
-  return header.sequence_number() >= source.index() &&
-         header.sequence_number() - source.index() > previous_->sequence_number;
+  return topics::sequence_number(header) >= source.index() &&
+         topics::sequence_number(header) - source.index() > previous_->sequence_number;
 }
 
 // How a message of the same sensor stands to the one before.
@@ -124,8 +125,8 @@ bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
 
 // The usual case: the next result of every stage.
 bool ScanAccounting::follows(const msg::Header& header) const {
-  return header.sequence_number() == previous_->sequence_number + 1 &&
-         header.sensor() == previous_->sensor &&
+  return topics::sequence_number(header) == previous_->sequence_number + 1 &&
+         topics::source(header) == previous_->sensor &&
          std::equal(header.trace().begin(), header.trace().end(), previous_->stages.begin(),
                     previous_->stages.end(),
                     [](const msg::StageTrace& now, const StagePosition& then) {
@@ -136,8 +137,8 @@ bool ScanAccounting::follows(const msg::Header& header) const {
 
 void ScanAccounting::remember(const msg::Header& header) {
   if (!previous_) previous_ = Previous{};
-  previous_->sensor = header.sensor();
-  previous_->sequence_number = header.sequence_number();
+  previous_->sensor = topics::source(header);
+  previous_->sequence_number = topics::sequence_number(header);
   previous_->stages.resize(header.trace().size());
   for (std::size_t i = 0; i < header.trace().size(); ++i) {
     const msg::StageTrace& trace = header.trace()[i];
@@ -153,7 +154,7 @@ void ScanAccounting::return_to(const msg::Header& header) {
   const msg::StageTrace& source = header.trace()[0];
   if (source.incarnation() == previous_->stages[0].incarnation || took_over(header, 0)) return;
   for (Previous& earlier : earlier_) {
-    if (earlier.sensor == header.sensor() &&
+    if (earlier.sensor == topics::source(header) &&
         earlier.stages[0].incarnation == source.incarnation()) {
       std::swap(earlier, *previous_);
       return;
@@ -167,7 +168,7 @@ void ScanAccounting::settle(const msg::Header& header, Change change,
   const msg::StageTrace& source = header.trace()[0];
   SourceAccount* const known = find_account(sources_, source.incarnation());
   const std::uint64_t settled = source.index() + 1;
-  const std::uint64_t offset = header.sequence_number() - source.index();
+  const std::uint64_t offset = topics::sequence_number(header) - source.index();
   if (known != nullptr) {
     known->settled = std::max(known->settled, settled);
     known->offset = offset;
@@ -178,8 +179,8 @@ void ScanAccounting::settle(const msg::Header& header, Change change,
     before.handed_over = change == Change::go_on;
     std::uint64_t lost = 0;
     for (const Loss& loss : losses) lost += loss.count;
-    if (!before.handed_over && lost > header.sequence_number()) {
-      before.settled += lost - header.sequence_number();
+    if (!before.handed_over && lost > topics::sequence_number(header)) {
+      before.settled += lost - topics::sequence_number(header);
     }
   }
   sources_.push_back({source.incarnation(), settled, offset, change == Change::begin, false});
@@ -191,11 +192,11 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   if (header.trace().empty()) return losses;  // not from a stage of this project
   Change change = Change::begin;
   if (!previous_) {
-    first_sequence_ = header.sequence_number();
-  } else if (header.sensor() == previous_->sensor && !follows(header)) {
+    first_sequence_ = topics::sequence_number(header);
+  } else if (topics::source(header) == previous_->sensor && !follows(header)) {
     return_to(header);
     change = change_to(header);
-    if ((change == Change::go_on && header.sequence_number() <= previous_->sequence_number) ||
+    if ((change == Change::go_on && topics::sequence_number(header) <= previous_->sequence_number) ||
         repeats_earlier_source(header)) {
       ++duplicates_;
       last_was_duplicate_ = true;

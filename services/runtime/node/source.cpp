@@ -12,6 +12,7 @@
 #include "services/runtime/process/control.hpp"
 #include "services/runtime/node/delivery.hpp"
 #include "services/runtime/process/service_activity.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 
@@ -30,8 +31,8 @@ class PublishingSource final : public ServiceActivity<Source> {
   bool publish(msg::Scan& scan) override {
     if (service_.stop.requested()) return false;
     msg::Header& header = scan.header();
-    header.sensor(service_.config.name);
-    header.sequence_number(next_sequence_++);
+    topics::set_origin(header, service_.config.name, service_.heartbeat.incarnation(),
+                       next_sequence_++);
     header.trace().resize(1);
     msg::StageTrace& trace = header.trace()[0];
     trace.service(service_.config.name);

@@ -18,6 +18,7 @@
 #include "services/runtime/node/method_exchange.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/process/service.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 
@@ -92,7 +93,7 @@ class Stage {
       ending = service_.stop.requested();
       bool leaving = service_.succession.leaves(next_sequence_);
       while (!leaving && reader.take(in_)) {
-        leaving = service_.succession.leaves(in_.header().sequence_number());
+        leaving = service_.succession.leaves(topics::sequence_number(in_.header()));
         if (!leaving) handle();
         leaving = leaving || service_.succession.leaves(next_sequence_);
       }
@@ -109,7 +110,7 @@ class Stage {
     service_.heartbeat.set_state(msg::ServiceState::STATE_HELD);
     while (!service_.stop.requested()) {
       while (kept_.size() < most_kept && reader.take(in_)) {
-        if (!service_.succession.keep(in_.header().sequence_number())) kept_.clear();
+        if (!service_.succession.keep(topics::sequence_number(in_.header()))) kept_.clear();
         kept_.push_back(in_);
       }
       begin_with_ = service_.succession.begin();
@@ -138,7 +139,7 @@ class Stage {
 
   void handle() {
     pulse_.beat();
-    const std::uint64_t number = in_.header().sequence_number();
+    const std::uint64_t number = topics::sequence_number(in_.header());
     // The predecessor has handled these; with another input they may come late.
     if (begin_with_ && number < *begin_with_) return;
     begin_with_.reset();
@@ -163,7 +164,7 @@ class Stage {
       failures = process_(in_, out_);
     } catch (const std::exception& error) {
       service_.heartbeat.count_loss(LossCause::processing);
-      spdlog::error("scan {}: {}", in_.header().sequence_number(), error.what());
+      spdlog::error("scan {}: {}", topics::sequence_number(in_.header()), error.what());
       return;
     }
     out_.header(in_.header());

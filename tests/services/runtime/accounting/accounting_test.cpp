@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/accounting.hpp"
+#include "services/topics/header.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,8 +22,7 @@ class Pipeline {
   /// The next scan, lost behind stage `delivered_by` - 1; arrives when no stage loses it.
   msg::Header scan(std::size_t passed_stages = 3) {
     msg::Header header;
-    header.sensor("front");
-    header.sequence_number(next_++);
+    topics::set_origin(header, "front", stages_[0].incarnation, next_++);
     for (std::size_t i = 0; i < std::min<std::size_t>(passed_stages, stages_.size()); ++i) {
       msg::StageTrace trace;
       trace.service(stages_[i].name);
@@ -181,8 +181,7 @@ TEST(ScanAccounting, AnotherSensorBeginsAnew) {
   ScanAccounting accounting;
   for (int i = 0; i < 20; ++i) accounting.receive(pipeline.scan());
   msg::Header other = pipeline.scan();
-  other.sensor("rear");
-  other.sequence_number(7);
+  topics::set_origin(other, "rear", 1, 7);
   EXPECT_THAT(accounting.receive(other), IsEmpty());
   EXPECT_EQ(accounting.received(), 21U);
 }
@@ -199,8 +198,7 @@ TEST(ScanAccounting, NothingIsLostWhileNobodyListens) {
 /// A header of a chain whose middle stage has two instances; all times in steps of a scan.
 msg::Header by_instance(std::uint64_t scan, std::uint64_t started, std::uint64_t index) {
   msg::Header header;
-  header.sensor("front");
-  header.sequence_number(scan);
+  topics::set_origin(header, "front", 1, scan);
   header.trace().resize(3);
   const char* const names[] = {"front", "walls", "wctls"};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/source_ledger.hpp"
+#include "services/topics/header.hpp"
 
 #include <random>
 
@@ -144,7 +145,7 @@ class Accident {
     void take(std::int64_t now) {
       while (!on_the_way.empty() && on_the_way.begin()->first <= now) {
         const msg::Header& header = on_the_way.begin()->second;
-        if (accounting.sources().empty()) first = header.sequence_number();
+        if (accounting.sources().empty()) first = topics::sequence_number(header);
         accounting.receive(header);
         on_the_way.erase(on_the_way.begin());
       }
@@ -164,8 +165,7 @@ class Accident {
   void publish() {
     auto& [incarnation, source] = *sources_.rbegin();
     msg::Header header;
-    header.sensor("front");
-    header.sequence_number(source.really.published);
+    topics::set_origin(header, "front", incarnation, source.really.published);
     header.trace().resize(2);
     header.trace()[0].service("front");
     header.trace()[0].incarnation(incarnation);

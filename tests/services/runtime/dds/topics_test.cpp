@@ -21,6 +21,7 @@
 #include "services/runtime/dds/writer.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 #include "tests/services/runtime/heap.hpp"
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 namespace {
@@ -31,8 +32,7 @@ using tests::test_namespace;
 
 msg::Scan scan_of(std::size_t points, std::uint64_t sequence_number) {
   msg::Scan scan;
-  scan.header().sensor("front");
-  scan.header().sequence_number(sequence_number);
+  topics::set_origin(scan.header(), "front", 1, sequence_number);
   scan.bearings().resize(points);
   scan.ranges().resize(points);
   std::iota(scan.ranges().begin(), scan.ranges().end(), 1.0F);
@@ -63,7 +63,7 @@ TEST(Topics, AScanArrivesAsItWasSent) {
   ASSERT_TRUE(writer.write(sent));
   msg::Scan got;
   ASSERT_TRUE(take_within(reader, got));
-  EXPECT_EQ(got.header().sequence_number(), 42U);
+  EXPECT_EQ(topics::sequence_number(got.header()), 42U);
   EXPECT_EQ(got.ranges(), sent.ranges());
   EXPECT_FALSE(reader.take(got));
 }
@@ -121,7 +121,7 @@ TEST(Topics, LosslessWaitsForASlowReader) {
   msg::Scan got;
   std::uint64_t expected = 0;
   while (expected < count && take_within(reader, got)) {
-    ASSERT_EQ(got.header().sequence_number(), expected);
+    ASSERT_EQ(topics::sequence_number(got.header()), expected);
     ++expected;
   }
   EXPECT_EQ(expected, count);
@@ -141,7 +141,7 @@ TEST(Topics, SensorPresetNeverWaitsForASlowReader) {
   std::uint64_t taken = 0;
   while (reader.take(got)) ++taken;
   EXPECT_LE(taken, 5U) << "keeps the last five";
-  EXPECT_EQ(got.header().sequence_number(), 199U) << "and the newest of all";
+  EXPECT_EQ(topics::sequence_number(got.header()), 199U) << "and the newest of all";
 }
 
 TEST(Topics, StateReachesALateReaderOnceForEachService) {
@@ -225,7 +225,7 @@ TEST(Topics, OfSeveralWritersTheStrongestThatLivesIsHeard) {
                          std::chrono::milliseconds timeout = 10s) {
     EXPECT_TRUE(writer.write(scan_of(900, number)));
     while (take_within(reader, got, timeout)) {
-      if (got.header().sequence_number() == number) return true;
+      if (topics::sequence_number(got.header()) == number) return true;
     }
     return false;
   };
@@ -239,9 +239,9 @@ TEST(Topics, OfSeveralWritersTheStrongestThatLivesIsHeard) {
     first->assert_liveliness();
     EXPECT_TRUE(first->write(scan_of(900, next + 2)));
     alone = true;
-    while (got.header().sequence_number() != next + 2) {
+    while (topics::sequence_number(got.header()) != next + 2) {
       ASSERT_TRUE(take_within(reader, got));
-      alone = alone && got.header().sequence_number() != next + 1;
+      alone = alone && topics::sequence_number(got.header()) != next + 1;
     }
   }
   // Silent, it is replaced; then it is heard again, until it goes.
