@@ -24,6 +24,7 @@
 #include "deploy/orchestration/requester.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "services/runtime/dds/participant.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "services/deployment/deployment.hpp"
 #include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 
@@ -26,14 +27,25 @@ Json describe(const Deployment& deployment) {
     Json parameters = Json::object();
     for (const ParameterSetting& setting : service.parameters)
       parameters[setting.name] = setting.text;
+    Json inputs = Json::object();
+    for (const InputConfig& input : service.inputs) {
+      inputs[input.port.empty() ? input.service : input.port] = input.service;
+    }
+    Json outputs = Json::array();
+    for (const OutputConfig& output : service.outputs) {
+      outputs.push_back({{"type", output.type}, {"topic", output.topic}, {"qos", output.qos}});
+    }
+    const bool one = service.outputs.size() == 1;
     services.push_back({{"name", label(service)},
                         {"kind", service.kind},
-                        {"input", service.input},
+                        {"input", service.inputs.size() == 1 ? service.inputs.front().service : ""},
+                        {"inputs", inputs},
                         {"method", service.method},
-                        {"qos", service.qos},
+                        {"qos", one ? service.outputs.front().qos : service.qos},
                         {"host", service.host},
                         {"restart", service.restart == RestartPolicy::always ? "always" : "never"},
-                        {"topic", output_topic(deployment, service)},
+                        {"topic", one ? service.outputs.front().topic : ""},
+                        {"outputs", outputs},
                         {"parameters", parameters}});
   }
   return {{"valid", true},
@@ -50,10 +62,16 @@ void print(const Deployment& deployment) {
     std::cout << "  " << label(service) << ": " << service.kind;
     if (!service.method.empty()) std::cout << '/' << service.method;
     if (!service.host.empty()) std::cout << " on " << service.host;
-    if (!service.input.empty()) std::cout << " reads " << service.input;
-    const std::string topic = output_topic(deployment, service);
-    std::cout << (topic.empty() ? ", publishes nothing\n"
-                                : ", publishes " + topic + " (" + service.qos + ")\n");
+    std::string reads;
+    for (const InputConfig& input : service.inputs) {
+      reads += (reads.empty() ? " reads " : ", ") + input.service;
+      if (service.inputs.size() > 1 && !input.port.empty()) reads += " as " + input.port;
+    }
+    std::string publishes;
+    for (const OutputConfig& output : service.outputs) {
+      publishes += (publishes.empty() ? ", publishes " : ", ") + output.topic + " (" + output.qos + ")";
+    }
+    std::cout << reads << (publishes.empty() ? ", publishes nothing" : publishes) << '\n';
   }
 }
 

@@ -14,7 +14,7 @@
 #include "deploy/observation/comparison.hpp"
 #include "deploy/observation/comparison_report.hpp"
 #include "services/deployment/deployment.hpp"
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "services/keys/key_files.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/observation/display.hpp"
@@ -52,7 +52,7 @@ Selection select(const Deployment& deployment, const CompareOptions& options) {
   std::vector<std::string> names = options.services;
   if (names.empty()) {
     for (const ServiceConfig& service : deployment.services) {
-      if (find_kind(service.kind)->output == MessageType::corners) names.push_back(service.name);
+      if (service.output("corners") != nullptr) names.push_back(service.name);
     }
   }
   if (names.empty()) {
@@ -115,7 +115,8 @@ class Listener {
         display_(options.json ? Display::Mode::errors : Display::Mode::automatic) {
     for (const ServiceConfig* service : selection.services) {
       readers_.push_back(std::make_unique<runtime::Reader<msg::Corners>>(
-          participant_, output_topic(deployment, *service), runtime::onlooker_qos(*service)));
+          participant_, service->output("corners")->topic,
+          runtime::observer_qos(*service, *service->output("corners"))));
       wait_set_.add(*readers_.back());
     }
   }
@@ -163,7 +164,7 @@ class Listener {
       const auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now());
       if (readers_[i]->wait_for_writers(1, std::max(left, milliseconds(0)))) continue;
       display_.log("quoin", "nobody publishes " +
-                                output_topic(deployment_, *selection_.services[i]) +
+                                selection_.services[i]->output("corners")->topic +
                                 " yet; waiting (quoin up starts a deployment)");
     }
     for (const auto& reader : readers_) {

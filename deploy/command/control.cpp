@@ -27,6 +27,7 @@ struct ControlOptions {
   std::vector<std::string> settings;  // name=value
   std::string file;
   NetworkOptions network;
+  bool drop_state = false;
   double wait = 5.0;  // [s]
   bool json = false;
 };
@@ -81,6 +82,7 @@ int run(const ControlOptions& options, msg::ControlAction action) {
   request.service(options.service);
   request.action(action);
   request.method(options.method);
+  request.drop_state(options.drop_state);
   add_settings(options.settings, request);
   const auto reply = requester.ask(request, deadline);
   if (!reply) {
@@ -113,6 +115,8 @@ void add_options(CLI::App& line, ControlOptions& options, bool settings_required
   line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
       ->capture_default_str()
       ->check(more_than_zero());
+  line.add_flag("--drop-state", options.drop_state,
+                "Even when the new method cannot go on with what the present one has learned");
   line.add_flag("--json", options.json, "The answer as a JSON object");
 }
 

@@ -12,6 +12,7 @@
 #include "services/runtime/dds/interfaces.hpp"
 #include "services/runtime/process/memory.hpp"
 #include "services/runtime/dds/participant.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

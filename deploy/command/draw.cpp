@@ -18,6 +18,7 @@
 #include "deploy/observation/scan_join.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

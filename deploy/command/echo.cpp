@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/deployment/deployment.hpp"
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "services/keys/key_files.hpp"
 #include "deploy/command/commands.hpp"
 #include "services/topics/message_json.hpp"

@@ -17,6 +17,7 @@
 #include "deploy/command/commands.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/launch.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

@@ -12,6 +12,7 @@
 #include "services/keys/key_directory.hpp"
 #include "services/keys/key_files.hpp"
 #include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

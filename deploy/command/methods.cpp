@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/evaluation/methods/description.hpp"
 #include "deploy/evaluation/methods/measured_figures.hpp"
 #include "deploy/evaluation/methods/methods_page.hpp"
@@ -27,10 +27,14 @@ struct MethodsOptions {
 
 /// The kind of this name, or all.
 std::vector<KindInfo> chosen(const std::string& name) {
-  if (name.empty()) return kinds();
-  if (const KindInfo* kind = find_kind(name)) return {*kind};
+  std::vector<KindInfo> all;
   std::vector<std::string> names;
-  for (const KindInfo& kind : kinds()) names.push_back(kind.name);
+  for (const KindInfo* kind : kinds().kinds) {
+    if (kind->name == name) return {*kind};
+    all.push_back(*kind);
+    names.push_back(kind->name);
+  }
+  if (name.empty()) return all;
   throw ParameterError("kind", "unknown kind '" + name + "'" + suggestion(name, names));
 }
 

@@ -73,7 +73,9 @@ class Run {
                          },
                      .was_active =
                          [this](const std::string& name) {
-                           return name == discovery_process || monitor_.was_active(name);
+                           // Of strangers nobody knows whether they are.
+                           return name == discovery_process || !monitor_.knows(name) ||
+                                  monitor_.was_active(name);
                          }}) {}
 
   int run() {
@@ -281,7 +283,7 @@ class Run {
   [[nodiscard]] std::vector<std::string> orderly_ended() const {
     std::vector<std::string> names;
     for (const ServiceConfig& service : composition_.deployment().services) {
-      if (service.host == composition_.host() &&
+      if (service.host == composition_.host() && service.has_process() && !service.external() &&
           supervisor_.figures(label(service)).phase == ProcessPhase::finished) {
         names.push_back(label(service));
       }

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <unistd.h>
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {

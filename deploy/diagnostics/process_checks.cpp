@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/diagnostics/host_checks.hpp"
 
 namespace quoin::deploy {

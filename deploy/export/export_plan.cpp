@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "services/deployment/kinds.hpp"
 #include "sensor_bridge/rplidar/service/parameters.hpp"
+#include "services/deployment/graph.hpp"
 #include "sensor_bridge/transport/endpoint.hpp"
 
 namespace quoin::deploy {
@@ -34,6 +34,7 @@ void look_at_device(const ServiceConfig& config, ExportedService& service) {
 }  // namespace
 
 std::vector<std::string> ExportedService::arguments(const std::filesystem::path& file) const {
+  if (!command.empty()) return {command.begin() + 1, command.end()};
   if (!is_service()) return {"discovery", file.string()};
   return {"--deployment", file.string(), "--service", label};
 }
@@ -53,26 +54,29 @@ ExportPlan plan_export(const Deployment& deployment, const std::string& host,
     servers.program = "quoin";
     plan.services.push_back(servers);
   }
+  const Graph graph(deployment);
   std::vector<std::string> devices;
   for (const ServiceConfig& service : deployment.services) {
-    if (service.host == host && find_kind(service.kind)->output == MessageType::none) {
-      devices.push_back(id_of(service));
-    }
+    if (service.host == host && service.info->exclusive) devices.push_back(id_of(service));
   }
   for (const ServiceConfig& service : deployment.services) {
-    if (service.host != host) continue;
-    const KindInfo& kind = *find_kind(service.kind);
+    if (service.host != host || !service.has_process()) continue;
     ExportedService exported;
     exported.kind = service.kind;
     exported.restart = service.restart;
     exported.label = label(service);
     exported.id = id_of(service);
-    exported.program = kind.program;
-    if (discovery_servers) exported.after.emplace_back("discovery-server");
-    for (const ServiceConfig* reader : deployment.readers_of(service.name)) {
-      if (reader->host == host) exported.after.push_back(id_of(*reader));
+    if (service.external()) {
+      exported.command = service.program;
+      exported.program = service.program.front();
+    } else {
+      exported.program = service.info->program;
     }
-    if (kind.input == MessageType::none && kind.output != MessageType::none) {
+    if (discovery_servers) exported.after.emplace_back("discovery-server");
+    for (const ServiceConfig* reader : graph.readers_of(service.name)) {
+      if (reader->host == host && reader->has_process()) exported.after.push_back(id_of(*reader));
+    }
+    if (service.is_source() && !service.external()) {
       exported.after.insert(exported.after.end(), devices.begin(), devices.end());
       exported.may_finish = service.kind != "rplidar";
     }

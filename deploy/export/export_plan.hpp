@@ -17,6 +17,7 @@ struct ExportedService {
   std::string id;       ///< the same for names of units and containers
   std::string kind;     ///< of the service; "discovery" for the servers
   std::string program;  ///< file name of the executable
+  std::vector<std::string> command = {};  ///< of kind external: the whole command line
   RestartPolicy restart = RestartPolicy::always;
   /// Those that have to be there first, by id: who reads the output, and for sources what stands in
   /// for their device. Stopped in the opposite order, nothing in flight is lost.
@@ -27,7 +28,8 @@ struct ExportedService {
   /// Speaks to addresses that the deployment's network does not name.
   bool own_network = false;
 
-  [[nodiscard]] bool is_service() const { return kind != "discovery"; }
+  /// Whether it is a service of this project, which reports to its supervisor.
+  [[nodiscard]] bool is_service() const { return kind != "discovery" && command.empty(); }
   /// Of the program, when the deployment's file is at `file`.
   [[nodiscard]] std::vector<std::string> arguments(const std::filesystem::path& file) const;
 };

@@ -6,9 +6,11 @@ namespace quoin::deploy {
 
 std::map<std::uint64_t, ServiceReport> Incarnations::processes() const {
   std::map<std::uint64_t, ServiceReport> processes = reports_;
-  for (const auto& [incarnation, count] : published_at_least_) {
-    ServiceReport& process = processes[incarnation];  // may have died before its first heartbeat
-    process.published = std::max(process.published, count);
+  for (const auto& [key, count] : published_at_least_) {
+    ServiceReport& process = processes[key.first];  // may have died before its first heartbeat
+    OutputReport& output = process.outputs[key.second];
+    output.published = std::max(output.published, count);
+    if (key.second == topic_) process.published = std::max(process.published, count);
   }
   return processes;
 }
@@ -26,8 +28,9 @@ ServiceReport Incarnations::total() const {
     total.failures += older.failures;
     for (const auto& [cause, count] : older.losses) total.losses[cause] += count;
   }
-  for (const auto& [incarnation, count] : published_at_least_) {
-    const auto report = reports_.find(incarnation);
+  for (const auto& [key, count] : published_at_least_) {
+    if (key.second != topic_) continue;
+    const auto report = reports_.find(key.first);
     const std::uint64_t told = report == reports_.end() ? 0 : report->second.published;
     total.published += std::max(count, told) - told;
   }

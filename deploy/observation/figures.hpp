@@ -5,10 +5,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin::deploy {
+
+/// What a process has told of one topic.
+struct OutputReport {
+  std::uint64_t published = 0;
+  std::uint64_t lost = 0;
+};
 
 /// What one process of a service has told of itself.
 struct ServiceReport {
@@ -21,6 +29,7 @@ struct ServiceReport {
   std::uint64_t lost = 0;
   std::map<std::string, std::uint64_t> losses;  ///< by cause
   std::uint64_t upstream_lost = 0;
+  std::map<std::string, OutputReport> outputs;  ///< by topic
   std::uint64_t failures = 0;
   double rate = 0.0;                  ///< [Hz]
   double latency_p50 = 0.0;           ///< [s] from the scan's publication
@@ -38,9 +47,13 @@ class Incarnations {
   void update(std::uint64_t incarnation, const ServiceReport& report) {
     reports_[incarnation] = report;
   }
-  /// What is known from elsewhere of what that process had published at least.
-  void published_at_least(std::uint64_t incarnation, std::uint64_t count) {
-    published_at_least_[incarnation] = std::max(published_at_least_[incarnation], count);
+  /// The topic that `published` of a report counts.
+  void set_topic(const std::string& topic) { topic_ = topic; }
+  /// What is known from elsewhere of what that process had published on a topic at least.
+  void published_at_least(std::uint64_t incarnation, const std::string& topic,
+                          std::uint64_t count) {
+    std::uint64_t& known = published_at_least_[{incarnation, topic}];
+    known = std::max(known, count);
   }
   /// Takes back what is known of a process that never did anything.
   void forget(std::uint64_t incarnation) { reports_.erase(incarnation); }
@@ -50,7 +63,8 @@ class Incarnations {
 
  private:
   std::map<std::uint64_t, ServiceReport> reports_;
-  std::map<std::uint64_t, std::uint64_t> published_at_least_;
+  std::map<std::pair<std::uint64_t, std::string>, std::uint64_t> published_at_least_;
+  std::string topic_;
 };
 
 struct ServiceFigures {
@@ -63,16 +77,37 @@ struct ServiceFigures {
   double age = -1.0;      ///< [s] of its last heartbeat; negative: none was heard
 };
 
-/// What arrived at the end of a chain, seen from outside.
+/// Lost scans by where they were lost.
+struct LossFigures {
+  std::map<std::string, std::uint64_t> by_service;
+  std::uint64_t on_link = 0;   ///< between the last service and the one who counts
+  std::uint64_t at_start = 0;  ///< before the first that arrived
+  std::uint64_t at_end = 0;    ///< behind the last one
+
+  [[nodiscard]] std::uint64_t sum() const {
+    std::uint64_t all = on_link + at_start + at_end;
+    for (const auto& [service, count] : by_service) all += count;
+    return all;
+  }
+};
+
+/// Of an output that gives corners.
 struct CornerFigures {
-  std::string name;
-  std::uint64_t scans_expected = 0;  ///< delivered + lost
-  std::uint64_t scans_delivered = 0;
-  std::uint64_t scans_lost = 0;
-  std::map<std::string, std::uint64_t> lost_by_stage;
   double mean_corners = 0.0;         ///< per scan
   double median_sigma = 0.0;         ///< [m] sqrt((Cxx + Cyy) / 2)
   double median_ellipse_area = 0.0;  ///< [m^2] one-sigma ellipse
+};
+
+/// What arrived at an output that no service reads, seen from outside.
+struct EndFigures {
+  std::string name;                  ///< of the service, or service/type where it has several ends
+  std::string type;                  ///< of the messages
+  std::uint64_t scans_expected = 0;  ///< delivered + lost
+  std::uint64_t scans_delivered = 0;
+  LossFigures lost;
+  double latency_p50 = 0.0;  ///< [s] from the publication by the source to that by this service
+  double latency_p99 = 0.0;  ///< [s]
+  std::optional<CornerFigures> corners = std::nullopt;
 };
 
 struct DeploymentFigures {
@@ -80,7 +115,7 @@ struct DeploymentFigures {
   double duration = 0.0;   ///< [s]
   std::uint64_t scans_published = 0;
   std::vector<ServiceFigures> services;
-  std::vector<CornerFigures> corners;
+  std::vector<EndFigures> ends;
 };
 
 }  // namespace quoin::deploy

@@ -27,6 +27,9 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   report.lost = status.lost();
   for (const msg::LossCount& loss : status.losses()) report.losses[loss.cause()] += loss.count();
   report.upstream_lost = status.upstream_lost();
+  for (const msg::OutputStatus& output : status.outputs()) {
+    report.outputs[output.topic()] = {output.published(), output.lost()};
+  }
   report.failures = status.failures();
   report.rate = status.rate();
   report.latency_p50 = status.latency_p50();

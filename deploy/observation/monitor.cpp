@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "services/deployment/kinds.hpp"
 #include "services/keys/key_files.hpp"
 #include "deploy/observation/heartbeats.hpp"
 #include "services/runtime/process/clock.hpp"
+#include "services/deployment/graph.hpp"
 #include "services/runtime/dds/qos.hpp"
 
 namespace quoin::deploy {
@@ -16,12 +16,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
-  const ServiceConfig* origin = &service;
-  while (!origin->input.empty()) origin = &deployment.service(origin->input);
-  return origin->name;
-}
 
 }  // namespace
 
@@ -41,24 +35,31 @@ void Monitor::add(const Deployment& wanted) { add(wanted, true); }
 void Monitor::add(const Deployment& wanted, bool joined_late) {
   const std::lock_guard lock(mutex_);
   for (const ServiceConfig& service : wanted.services) {
+    if (service.external()) continue;
     const auto [watch, added] = services_.try_emplace(label(service));
-    if (added) {
-      watch->second.name = service.name;
-      watch->second.here = service.host == host_;
-      order_.push_back(label(service));
-    }
-    if (service.host != host_ || find_kind(service.kind)->output != MessageType::corners) continue;
-    listen_to_corners(wanted, service, joined_late);
+    if (!added) continue;
+    watch->second.name = service.name;
+    watch->second.here = service.host == host_;
+    order_.push_back(label(service));
   }
+  listen_to_ends(wanted, joined_late);
 }
 
-void Monitor::listen_to_corners(const Deployment& deployment, const ServiceConfig& service,
-                                bool joined_late) {
-  for (const auto& watch : corners_) {
-    if (watch->name() == service.name) return;  // its instances write to one topic
+void Monitor::listen_to_ends(const Deployment& deployment, bool joined_late) {
+  const std::vector<Connection> ends = Graph(deployment).ends();
+  for (const Connection& end : ends) {
+    if (end.writer->host != host_) continue;
+    const bool known = std::any_of(ends_.begin(), ends_.end(), [&](const auto& watch) {
+      return watch->service() == end.writer->name && watch->type() == end.type;
+    });
+    if (known) continue;
+    const auto of_service = std::count_if(ends.begin(), ends.end(), [&](const Connection& other) {
+      return other.writer == end.writer;
+    });
+    ends_.push_back(std::make_unique<EndWatch>(
+        participant_, end, end.writer->name + (of_service > 1 ? "/" + end.type : ""), joined_late));
+    wait_set_.add(ends_.back()->reader());
   }
-  corners_.push_back(std::make_unique<CornerWatch>(participant_, deployment, service, joined_late));
-  wait_set_.add(corners_.back()->reader());
 }
 
 void Monitor::settle(const Deployment& deployment) {
@@ -67,10 +68,13 @@ void Monitor::settle(const Deployment& deployment) {
   std::vector<std::string> order;
   for (auto& [name, watch] : services_) watch.present = false;
   for (const ServiceConfig& service : deployment.services) {
+    if (service.external()) continue;
     ServiceWatch& watch = services_.at(label(service));
     watch.kind = service.kind;
     watch.here = service.host == host_;
-    watch.source = service.input.empty();
+    watch.source = service.is_source();
+    watch.outputs = service.outputs;
+    if (!service.outputs.empty()) watch.incarnations.set_topic(service.outputs.front().topic);
     watch.present = true;
     if (!watch.settled) watch.method = service.method;
     watch.settled = true;
@@ -82,9 +86,14 @@ void Monitor::settle(const Deployment& deployment) {
     if (known != services_.end() && !known->second.present) order.push_back(name);
   }
   order_ = std::move(order);
-  for (const auto& watch : corners_) {
-    if (is_present(watch->name())) {
-      watch->set_source(source_of(deployment, deployment.service(watch->name())));
+  const Graph graph(deployment);
+  const std::vector<Connection> ends = graph.ends();
+  for (const auto& watch : ends_) {
+    const auto end = std::find_if(ends.begin(), ends.end(), [&](const Connection& candidate) {
+      return candidate.writer->name == watch->service() && candidate.type == watch->type();
+    });
+    if (end != ends.end() && is_present(watch->service())) {
+      watch->set_path(graph.path_to(*end->writer, end->output));
     } else {
       watch->interrupt();
     }
@@ -153,8 +162,8 @@ bool Monitor::take_all() {
     take(status_);
     any = true;
   }
-  for (const auto& watch : corners_) {
-    any = watch->take_all([this](const msg::Header& header) { take_note_of(header); }) || any;
+  for (const auto& watch : ends_) {
+    any = watch->take_all([&](const msg::Header& header) { take_note_of(*watch, header); }) || any;
   }
   return any;
 }
@@ -190,12 +199,18 @@ Monitor::ServiceWatch* Monitor::writer_of(const msg::StageTrace& trace) {
 
 // Heartbeats come once a second; the trace tells at once what a process had published, which is all
 // there is when it is killed.
-void Monitor::take_note_of(const msg::Header& header) {
+void Monitor::take_note_of(const EndWatch& watch, const msg::Header& header) {
   for (const msg::StageTrace& trace : header.trace()) {
     ServiceWatch* service = writer_of(trace);
     if (service == nullptr) continue;
-    service->incarnations.published_at_least(trace.incarnation(), trace.index() + 1);
+    service->incarnations.published_at_least(trace.incarnation(), watch.topic_of(trace.service()),
+                                             trace.index() + 1);
   }
+}
+
+bool Monitor::knows(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return services_.contains(name);
 }
 
 bool Monitor::was_active(const std::string& name) const {
@@ -236,18 +251,29 @@ int Monitor::newest_process(const std::string& name) const {
   return processes.empty() ? 0 : processes.rbegin()->second.process_id;
 }
 
-// Of all hosts.
+// Of all hosts: of each output that numbers its messages, by the processes of each instance.
 std::vector<SourceInstance> Monitor::source_instances() const {
   std::vector<SourceInstance> instances;
-  std::vector<const std::vector<runtime::SourceAccount>*> accounts;
-  for (const auto& watch : corners_) accounts.push_back(&watch->sources());
   for (const auto& [label, watch] : services_) {
-    if (!watch.source) continue;
-    SourceInstance& instance = instances.emplace_back(SourceInstance{label, watch.name, {}});
-    for (const auto& [incarnation, process] : watch.incarnations.processes()) {
-      instance.ledger.add(incarnation, {process.first_number, process.published, process.lost});
+    for (const OutputConfig& output : watch.outputs) {
+      const bool scans = watch.source && &output == &watch.outputs.front();
+      if (!scans && output.rate == Rate::per_input) continue;
+      SourceInstance& instance =
+          instances.emplace_back(SourceInstance{label, watch.name, output.type, {}});
+      for (const auto& [incarnation, process] : watch.incarnations.processes()) {
+        const auto counts = process.outputs.find(output.topic);
+        if (scans) {
+          instance.ledger.add(incarnation, {process.first_number, process.published, process.lost});
+        } else if (counts != process.outputs.end()) {
+          instance.ledger.add(incarnation, {0, counts->second.published, 0});
+        }
+      }
+      std::vector<const std::vector<runtime::SourceAccount>*> accounts;
+      for (const auto& end : ends_) {
+        if (end->source_type() == output.type) accounts.push_back(&end->sources());
+      }
+      instance.ledger.learn(accounts);
     }
-    instance.ledger.learn(accounts);
   }
   return instances;
 }
@@ -256,7 +282,9 @@ DeploymentFigures Monitor::figures() const {
   const std::lock_guard lock(mutex_);
   const std::vector<SourceInstance> sources = source_instances();
   std::map<std::string, std::uint64_t> published;  // by sources
-  for (const SourceInstance& source : sources) published[source.label] = source.ledger.published();
+  for (const SourceInstance& source : sources) {
+    published.try_emplace(source.label, source.ledger.published());  // of the scans, which come first
+  }
   DeploymentFigures figures;
   figures.deployment = file_;
   for (const std::string& name : order_) {
@@ -272,11 +300,11 @@ DeploymentFigures Monitor::figures() const {
     }
     if (watch.here) figures.services.push_back(std::move(entry));
   }
-  for (const auto& watch : corners_) {
+  for (const auto& watch : ends_) {
     const bool was_there = std::any_of(services_.begin(), services_.end(), [&](const auto& entry) {
-      return entry.second.name == watch->name();
+      return entry.second.name == watch->service();
     });
-    if (was_there) figures.corners.push_back(watch->figures(sources));
+    if (was_there) figures.ends.push_back(watch->figures(sources));
   }
   return figures;
 }
@@ -302,8 +330,8 @@ void Monitor::finish(const std::vector<std::string>& names, milliseconds timeout
 
 void Monitor::account_for_the_end() {
   const std::lock_guard lock(mutex_);
-  for (const auto& watch : corners_) {
-    if (!is_present(watch->name())) continue;
+  for (const auto& watch : ends_) {
+    if (!is_present(watch->service())) continue;
     const ServiceWatch* source =
         watch->heard_nothing() ? nullptr : writer_of(watch->source_trace());
     // A source on another host that goes on without us: its further scans are no loss.

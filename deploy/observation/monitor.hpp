@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "services/deployment/deployment.hpp"
-#include "deploy/observation/corner_watch.hpp"
+#include "deploy/observation/end_watch.hpp"
 #include "deploy/observation/figures.hpp"
 #include "services/runtime/process/memory.hpp"
 #include "services/runtime/dds/participant.hpp"
@@ -32,8 +32,8 @@ struct ProcessWatch {
   std::string detail;
 };
 
-/// Listens to the heartbeats of a deployment and to what the corner services of one host's share of
-/// it publish, in a thread of its own. Services are called by their labels.
+/// Listens to the heartbeats of a deployment and to what comes out of one host's share of it and
+/// is read by no service, in a thread of its own. Services are called by their labels.
 class Monitor {
  public:
   /// Throws std::runtime_error when DDS refuses.
@@ -54,6 +54,8 @@ class Monitor {
   [[nodiscard]] bool removed(const std::string& name) const;
   [[nodiscard]] runtime::Participant& participant() { return participant_; }
 
+  /// Whether there is, or was, a service that sends heartbeats.
+  [[nodiscard]] bool knows(const std::string& name) const;
   /// Whether the service has ever been active.
   [[nodiscard]] bool was_active(const std::string& name) const;
   /// The share's, as below.
@@ -80,6 +82,7 @@ class Monitor {
     std::string kind;
     std::string method;
     bool source = false;
+    std::vector<OutputConfig> outputs;
     bool here = true;      // in the share
     bool present = false;  // part of the deployment now
     bool settled = false;  // has ever been
@@ -88,10 +91,9 @@ class Monitor {
   void listen();
   bool take_all();
   void take(const msg::ServiceStatus& status);
-  void take_note_of(const msg::Header& header);
+  void take_note_of(const EndWatch& watch, const msg::Header& header);
   void account_for_the_end();
-  void listen_to_corners(const Deployment& deployment, const ServiceConfig& service,
-                         bool joined_late);
+  void listen_to_ends(const Deployment& deployment, bool joined_late);
   void add(const Deployment& wanted, bool joined_late);
   [[nodiscard]] ServiceWatch* writer_of(const msg::StageTrace& trace);
   [[nodiscard]] static bool ended(const ServiceWatch& watch);
@@ -108,7 +110,7 @@ class Monitor {
   std::map<std::string, ServiceWatch> services_;  // by label
   std::vector<std::string> order_;                // of the services, removed ones last
   std::map<int, std::uint64_t> forgotten_;        // process ids; up to what incarnation
-  std::vector<std::unique_ptr<CornerWatch>> corners_;
+  std::vector<std::unique_ptr<EndWatch>> ends_;
   msg::ServiceStatus status_;
   std::atomic<bool> ending_{false};
   std::thread thread_;

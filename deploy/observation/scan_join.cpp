@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/parameters/suggestion.hpp"
-#include "services/deployment/kinds.hpp"
+#include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/topics/header.hpp"
 
@@ -23,30 +23,43 @@ constexpr std::size_t most_pending = 64;
 
 CornerChain corner_chain(const Deployment& deployment, const std::string& name) {
   const ServiceConfig& corners = deployment.service(name);
-  if (find_kind(corners.kind)->output != MessageType::corners) {
+  if (corners.output("corners") == nullptr) {
     std::vector<std::string> names;
     for (const ServiceConfig& service : deployment.services) {
-      if (find_kind(service.kind)->output == MessageType::corners) names.push_back(service.name);
+      if (service.output("corners") != nullptr) names.push_back(service.name);
     }
     throw std::out_of_range(deployment.file.string() + ": service '" + name + "' of kind " +
                             corners.kind + " gives no corners" + suggestion(name, names));
   }
-  const ServiceConfig& lines = deployment.service(corners.input);
-  const ServiceConfig& segments = deployment.service(lines.input);
-  return {&deployment.service(segments.input), &segments, &lines, &corners};
+  const Graph graph(deployment);
+  const CornerChain chain{&graph.source_of(corners), graph.upstream(corners, "segments"),
+                          graph.upstream(corners, "lines"), &corners};
+  if (chain.segmentation == nullptr || chain.line_fitting == nullptr) {
+    throw std::out_of_range(deployment.file.string() + ": the corners of '" + name +
+                            "' are not made of segments and lines");
+  }
+  return chain;
 }
+
+namespace {
+
+template <class T>
+runtime::Reader<T> make_reader(runtime::Participant& participant, const ServiceConfig& service,
+                               std::string_view type) {
+  const OutputConfig& output = *service.output(type);
+  return {participant, output.topic, runtime::observer_qos(service, output)};
+}
+
+}  // namespace
 
 ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
                    std::optional<std::uint64_t> scan)
     : chain_(chain),
       scan_(scan),
       participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
-      segments_(participant_, output_topic(deployment, *chain.segmentation),
-                runtime::onlooker_qos(*chain.segmentation)),
-      lines_(participant_, output_topic(deployment, *chain.line_fitting),
-             runtime::onlooker_qos(*chain.line_fitting)),
-      corners_(participant_, output_topic(deployment, *chain.corners),
-               runtime::onlooker_qos(*chain.corners)) {
+      segments_(make_reader<msg::Segments>(participant_, *chain.segmentation, "segments")),
+      lines_(make_reader<msg::Lines>(participant_, *chain.line_fitting, "lines")),
+      corners_(make_reader<msg::Corners>(participant_, *chain.corners, "corners")) {
   wait_set_.add(segments_);
   wait_set_.add(lines_);
   wait_set_.add(corners_);

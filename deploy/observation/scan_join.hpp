@@ -19,7 +19,7 @@
 
 namespace quoin::deploy {
 
-/// The chain of services that ends in a corner service.
+/// The services that a corner service gets its corners from.
 struct CornerChain {
   const ServiceConfig* source;
   const ServiceConfig* segmentation;

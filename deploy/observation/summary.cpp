@@ -19,14 +19,23 @@ Json counts(const std::map<std::string, std::uint64_t>& values) {
   return json;
 }
 
-Json corner_summary(const CornerFigures& corner) {
-  return {{"scans_expected", corner.scans_expected},
-          {"scans_delivered", corner.scans_delivered},
-          {"scans_lost", corner.scans_lost},
-          {"lost_by_stage", counts(corner.lost_by_stage)},
-          {"mean_corners", rounded(corner.mean_corners)},
-          {"median_sigma_mm", rounded(corner.median_sigma * 1e3)},
-          {"median_ellipse_area_mm2", rounded(corner.median_ellipse_area * 1e6)}};
+Json end_summary(const EndFigures& end) {
+  return {{"scans_expected", end.scans_expected},
+          {"scans_delivered", end.scans_delivered},
+          {"scans_lost", end.lost.sum()},
+          {"lost_by_stage", counts(end.lost.by_service)},
+          {"lost_on_link", end.lost.on_link},
+          {"lost_at_start", end.lost.at_start},
+          {"lost_at_end", end.lost.at_end}};
+}
+
+/// The same, with what belongs to corners.
+Json corner_summary(const EndFigures& end) {
+  Json json = end_summary(end);
+  json["mean_corners"] = rounded(end.corners->mean_corners);
+  json["median_sigma_mm"] = rounded(end.corners->median_sigma * 1e3);
+  json["median_ellipse_area_mm2"] = rounded(end.corners->median_ellipse_area * 1e6);
+  return json;
 }
 
 }  // namespace
@@ -61,12 +70,20 @@ Json summary(const DeploymentFigures& figures) {
   for (const ServiceFigures& service : figures.services) {
     services[service.name] = service_summary(service);
   }
+  Json ends = Json::object();
   Json corners = Json::object();
-  for (const CornerFigures& corner : figures.corners) corners[corner.name] = corner_summary(corner);
+  for (const EndFigures& end : figures.ends) {
+    Json& json = ends[end.name] = end_summary(end);
+    json["type"] = end.type;
+    json["latency_p50_us"] = rounded(end.latency_p50 * 1e6);
+    json["latency_p99_us"] = rounded(end.latency_p99 * 1e6);
+    if (end.corners) corners[end.name] = corner_summary(end);
+  }
   return {{"deployment", figures.deployment},
           {"duration_s", rounded(figures.duration)},
           {"scans_published", figures.scans_published},
           {"services", services},
+          {"ends", ends},
           {"corners", corners}};
 }
 

@@ -27,14 +27,15 @@ Row service_row(const ServiceFigures& service) {
           std::to_string(service.restarts)};
 }
 
-Row corner_row(const CornerFigures& corner) {
-  const bool any = corner.mean_corners > 0.0;
-  return {corner.name,
-          std::to_string(corner.scans_delivered),
-          std::to_string(corner.scans_lost),
-          fixed(corner.mean_corners, 2),
-          any ? fixed(corner.median_sigma * 1e3, 2) : "-",
-          any ? fixed(corner.median_ellipse_area * 1e6, 2) : "-"};
+Row end_row(const EndFigures& end, bool with_corners) {
+  Row row{end.name, end.type, std::to_string(end.scans_delivered), std::to_string(end.lost.sum()),
+          milli_pair(end.latency_p50, end.latency_p99)};
+  if (!with_corners) return row;
+  const bool any = end.corners && end.corners->mean_corners > 0.0;
+  row.push_back(end.corners ? fixed(end.corners->mean_corners, 2) : "-");
+  row.push_back(any ? fixed(end.corners->median_sigma * 1e3, 2) : "-");
+  row.push_back(any ? fixed(end.corners->median_ellipse_area * 1e6, 2) : "-");
+  return row;
 }
 
 }  // namespace
@@ -74,13 +75,19 @@ std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size
                          "p50 / p99 [ms]", "RSS MiB", "restarts"}};
   for (const ServiceFigures& service : figures.services) rows.push_back(service_row(service));
   append_table(rows, 3, width, lines);
-  if (figures.corners.empty()) return lines;
+  if (figures.ends.empty()) return lines;
 
+  const bool with_corners = std::any_of(figures.ends.begin(), figures.ends.end(),
+                                        [](const EndFigures& end) { return end.corners; });
+  Row head{"what comes out of", "type", "scans", "lost", "p50 / p99 [ms]"};
+  if (with_corners) {
+    head.insert(head.end(),
+                {"corners/scan", "median sigma [mm]", "median ellipse area [mm^2]"});
+  }
   lines.emplace_back();
-  rows.assign({{"corners of", "scans", "lost", "corners/scan", "median sigma [mm]",
-                "median ellipse area [mm^2]"}});
-  for (const CornerFigures& corner : figures.corners) rows.push_back(corner_row(corner));
-  append_table(rows, 1, width, lines);
+  rows.assign({std::move(head)});
+  for (const EndFigures& end : figures.ends) rows.push_back(end_row(end, with_corners));
+  append_table(rows, 2, width, lines);
   return lines;
 }
 
@@ -100,17 +107,17 @@ std::vector<std::string> status_lines(const std::vector<ServiceFigures>& service
 
 std::string progress_line(const DeploymentFigures& figures) {
   std::string line = fixed(figures.duration, 1) + " s";
-  for (const CornerFigures& corner : figures.corners) {
-    line += " | " + corner.name + " " + std::to_string(corner.scans_delivered) + " scans, " +
-            std::to_string(corner.scans_lost) + " lost";
-    if (corner.mean_corners > 0.0) {
-      line += ", " + fixed(corner.mean_corners, 1) + " corners, sigma " +
-              fixed(corner.median_sigma * 1e3, 2) + " mm";
+  for (const EndFigures& end : figures.ends) {
+    line += " | " + end.name + " " + std::to_string(end.scans_delivered) + " scans, " +
+            std::to_string(end.lost.sum()) + " lost";
+    if (end.corners && end.corners->mean_corners > 0.0) {
+      line += ", " + fixed(end.corners->mean_corners, 1) + " corners, sigma " +
+              fixed(end.corners->median_sigma * 1e3, 2) + " mm";
     }
   }
   const bool arriving =
-      std::any_of(figures.corners.begin(), figures.corners.end(),
-                  [](const CornerFigures& corner) { return corner.scans_delivered > 0; });
+      std::any_of(figures.ends.begin(), figures.ends.end(),
+                  [](const EndFigures& end) { return end.scans_delivered > 0; });
   for (const ServiceFigures& service : figures.services) {
     const bool worth_saying = service.report.state != "active" || service.restarts > 0;
     if (arriving && !worth_saying) continue;

@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "services/deployment/kinds.hpp"
 #include "deploy/orchestration/cue.hpp"
+#include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {
 
@@ -19,8 +19,15 @@ using std::chrono::seconds;
 // A scan that was on its way when its reader was matched may be missed; the next one is not.
 constexpr seconds first_scan_patience{2};
 
-bool publishes(const ServiceConfig& service) {
-  return find_kind(service.kind)->output != MessageType::none;
+/// Whether a new process can wait, held, until the one before leaves its work to it.
+bool can_be_held(const ServiceConfig& service) {
+  return !service.external() && !service.info->exclusive;
+}
+
+std::vector<std::string> topics_of(const ServiceConfig& service) {
+  std::vector<std::string> topics;
+  for (const OutputConfig& output : service.outputs) topics.push_back(output.topic);
+  return topics;
 }
 
 /// The plan with more readers to wait for, publishing only when told to.
@@ -132,8 +139,8 @@ void Changeover::start(const Change& change) {
   const auto plan = std::find_if(plans_.begin(), plans_.end(), [&](const ProcessPlan& candidate) {
     return candidate.name == change.service;
   });
-  if (!publishes(config)) {
-    // It has no scans to hand over, but maybe a device or a port of which there is only one.
+  if (!can_be_held(config)) {
+    // It has a device or a port of which there is only one.
     if (const auto old = predecessors_.find(change.service); old != predecessors_.end()) {
       stopped_beforehand_.push_back(world_.supervisor.plan(old->second));
       stop({old->second});
@@ -150,14 +157,20 @@ void Changeover::start(const Change& change) {
 // those that are waited for.
 int Changeover::readers_to_go(const ServiceConfig& service) const {
   if (!plan_.replaces(label(service))) return 0;
-  const std::string topic = output_topic(wanted_, service);
-  if (output_topic(running_, running_.service(label(service))) != topic) return 0;
+  if (topics_of(running_.service(label(service))) != topics_of(service)) return 0;
+  const Graph running(running_);
   int count = 0;
-  for (const ServiceConfig* reader : running_.readers_of(service.name)) {
-    if (elsewhere_.replaces(label(*reader)) || elsewhere_.stops(label(*reader))) ++count;
+  for (const ServiceConfig* reader : running.readers_of(service.name)) {
+    const auto inputs = running.inputs_of(*reader);
+    const auto readers = std::count_if(inputs.begin(), inputs.end(), [&](const Connection& input) {
+      return input.writer->name == service.name;
+    });
+    if (elsewhere_.replaces(label(*reader)) || elsewhere_.stops(label(*reader))) {
+      count += static_cast<int>(readers);
+    }
     if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
     const auto key = world_.supervisor.key_of(label(*reader));
-    if (key && world_.supervisor.running(*key)) ++count;
+    if (key && world_.supervisor.running(*key)) count += static_cast<int>(readers);
   }
   return count;
 }
@@ -194,10 +207,11 @@ void Changeover::wait_until_ready() {
 }
 
 bool Changeover::ready(Newcomer& newcomer) {
+  if (newcomer.config->external()) return world_.supervisor.running(newcomer.key);
   const auto process =
       world_.monitor.process(label(*newcomer.config), world_.supervisor.process_id(newcomer.key));
   if (!process) return false;
-  if (!publishes(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
+  if (!can_be_held(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
   newcomer.incarnation = process->incarnation;
   return world_.dialogue
@@ -249,15 +263,15 @@ void Changeover::roll_back() {
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
-  if (!publishes(*newcomer.config)) {
+  if (!can_be_held(*newcomer.config)) {
     world_.supervisor.adopt(newcomer.key, *newcomer.plan);
     return;
   }
   const msg::ControlReply held = hold(newcomer, milliseconds(0));
-  if (held.held_scans() > 0 || newcomer.config->input.empty()) {
+  if (held.held_scans() > 0 || newcomer.config->is_source()) {
     first_scans_[label(*newcomer.config)] = held.first_sequence_number();
   }
-  begin_with(newcomer, 0);
+  begin_with(newcomer, {});
 }
 
 void Changeover::take_over(const Newcomer& newcomer) {
@@ -267,23 +281,27 @@ void Changeover::take_over(const Newcomer& newcomer) {
     return;
   }
   const bool same_scans = newcomer.change->same_scans;
-  const bool source = newcomer.config->input.empty();
+  const bool source = newcomer.config->is_source();
   const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
   world_.supervisor.retire(predecessor->second, false);
-  const auto handed_over =
-      world_.dialogue.ask(label(*newcomer.config), incarnation_of(predecessor->second),
-                          msg::ControlAction::CONTROL_HAND_OVER,
-                          same_scans && held.held_scans() > 0 ? held.first_sequence_number() : 0);
-  std::uint64_t scan = 0;  // everything that is held
+  msg::ControlRequest leave;
+  leave.action(msg::ControlAction::CONTROL_HAND_OVER);
+  if (same_scans) leave.positions(held.positions());
+  const auto handed_over = world_.dialogue.ask(
+      label(*newcomer.config), incarnation_of(predecessor->second), std::move(leave));
+  msg::ControlRequest take;  // everything that is held
   if (handed_over && handed_over->accepted()) {
-    if (same_scans) scan = handed_over->first_sequence_number();
+    if (same_scans) take.positions(handed_over->positions());
+    take.state(handed_over->state());
   } else {
     world_.supervisor.kill(predecessor->second);
     world_.dialogue.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
                                seconds(5));
   }
-  first_scans_[label(*newcomer.config)] = same_scans ? scan : held.first_sequence_number();
-  begin_with(newcomer, scan);
+  first_scans_[label(*newcomer.config)] = same_scans && !take.positions().empty()
+                                              ? take.positions().front().sequence_number()
+                                              : held.first_sequence_number();
+  begin_with(newcomer, std::move(take));
 }
 
 msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
@@ -297,10 +315,11 @@ msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patien
   }
 }
 
-void Changeover::begin_with(const Newcomer& newcomer, std::uint64_t scan) {
+void Changeover::begin_with(const Newcomer& newcomer, msg::ControlRequest take) {
   world_.supervisor.adopt(newcomer.key, *newcomer.plan);
-  const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
-                                         msg::ControlAction::CONTROL_TAKE_OVER, scan);
+  take.action(msg::ControlAction::CONTROL_TAKE_OVER);
+  const auto reply =
+      world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation, std::move(take));
   // Started again it works like any other.
   if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
 }

@@ -81,7 +81,7 @@ class Changeover {
   void take_over(const Newcomer& newcomer);
   [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
                                        std::chrono::milliseconds patience);
-  void begin_with(const Newcomer& newcomer, std::uint64_t scan);
+  void begin_with(const Newcomer& newcomer, msg::ControlRequest take);
   void stop_removed();
   void stop(const std::vector<int>& keys);
 

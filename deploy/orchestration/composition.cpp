@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/orchestration/composition.hpp"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
 #include "deploy/orchestration/checksum.hpp"
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
+#include "services/deployment/graph.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/launch.hpp"
 
@@ -17,8 +19,11 @@ namespace {
 std::vector<ProcessPlan> plans_of(const Deployment& deployment, const std::string& host,
                                   const FrozenFile& copy) {
   // The monitor reads what comes out at the ends.
-  const auto observers = [](const ServiceConfig& service) {
-    return find_kind(service.kind)->output == MessageType::corners ? 1 : 0;
+  const std::vector<Connection> ends = Graph(deployment).ends();
+  const auto observers = [&](const ServiceConfig& service) {
+    return static_cast<int>(std::count_if(ends.begin(), ends.end(), [&](const Connection& end) {
+      return end.writer->name == service.name;
+    }));
   };
   return process_plans(deployment, host, observers, copy.path());
 }

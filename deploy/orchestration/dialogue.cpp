@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "services/deployment/kinds.hpp"
 
 namespace quoin::deploy {
 
@@ -30,7 +29,7 @@ void set_method(const ServiceConfig& config, msg::ControlRequest& request) {
 
 /// Takes over what a service says of its method, if this build knows it.
 void set_method(const msg::ControlReply& reply, ServiceConfig& service) {
-  const auto& methods = find_kind(service.kind)->methods;
+  const auto& methods = service.info->methods;
   if (std::none_of(methods.begin(), methods.end(),
                    [&](const MethodInfo& method) { return method.name == reply.method(); })) {
     return;
@@ -48,17 +47,22 @@ Dialogue::Dialogue(const Supervisor& supervisor, Requester& requester, std::func
     : supervisor_(supervisor), requester_(requester), pump_(std::move(pump)) {}
 
 std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
-                                               std::uint64_t incarnation, msg::ControlAction action,
-                                               std::uint64_t sequence_number) {
+                                               std::uint64_t incarnation,
+                                               msg::ControlAction action) {
+  msg::ControlRequest request;
+  request.action(action);
+  return ask(service, incarnation, std::move(request));
+}
+
+std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
+                                               std::uint64_t incarnation,
+                                               msg::ControlRequest request) {
+  request.service(service);
+  request.incarnation(incarnation);
   // Only the first request to a process can get lost: before the endpoints are matched.
-  const bool question = action == msg::ControlAction::CONTROL_DESCRIBE;
+  const bool question = request.action() == msg::ControlAction::CONTROL_DESCRIBE;
   const auto deadline = Clock::now() + (question ? milliseconds(3000) : answer_patience);
   do {
-    msg::ControlRequest request;
-    request.service(service);
-    request.incarnation(incarnation);
-    request.action(action);
-    request.sequence_number(sequence_number);
     if (const auto reply = answer(request, question ? milliseconds(300) : answer_patience)) {
       return reply;
     }
@@ -72,6 +76,7 @@ Dialogue::Swap Dialogue::swap(const ServiceConfig& config) {
   request.service(label(config));
   request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
   set_method(config, request);
+  request.drop_state(true);  // the plan has said so
   const auto reply = answer(request, answer_patience);
   if (!reply) return {"does not answer"};
   if (!reply->accepted()) return {"refuses: " + reply->detail()};

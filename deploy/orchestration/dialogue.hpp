@@ -24,8 +24,11 @@ class Dialogue {
   /// Nothing when the process does not answer. Incarnation 0 stands for any process of the service.
   [[nodiscard]] std::optional<msg::ControlReply> ask(const std::string& service,
                                                      std::uint64_t incarnation,
-                                                     msg::ControlAction action,
-                                                     std::uint64_t sequence_number = 0);
+                                                     msg::ControlAction action);
+  /// The same with what the request carries besides.
+  [[nodiscard]] std::optional<msg::ControlReply> ask(const std::string& service,
+                                                     std::uint64_t incarnation,
+                                                     msg::ControlRequest request);
 
   struct Swap {
     std::string refusal;                                     ///< why not; "" when it was done

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <unistd.h>
 
-#include "services/deployment/kinds.hpp"
+#include "services/deployment/graph.hpp"
 #include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/interfaces.hpp"
@@ -57,21 +56,26 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
   const std::filesystem::path folder = program_folder();
   std::vector<std::string> identities{std::string(operator_identity)};
   for (const ServiceConfig& service : deployment.services) {
-    if (service.host == host) identities.push_back(label(service));
+    if (service.host == host && !service.external()) identities.push_back(label(service));
   }
   require_keys(deployment, identities);
-  std::map<std::string, int> levels;
+  const Graph graph(deployment);
   std::vector<ProcessPlan> plans;
   std::vector<std::size_t> behind;
   int last_level = 0;
   for (const ServiceConfig& service : deployment.services) {
-    const int level = service.input.empty() ? 0 : levels.at(service.input) + 1;
-    int& level_of_name = levels[service.name];  // of the last of its instances
-    level_of_name = std::max(level_of_name, level);
-    if (service.host != host) continue;
+    if (service.host != host || !service.has_process()) continue;
     ProcessPlan plan;
     plan.name = label(service);
-    plan.program = folder / find_kind(service.kind)->program;
+    plan.level = graph.level(service);
+    plan.restart = service.restart == RestartPolicy::always;
+    if (service.external()) {
+      plan.program = service.program.front();
+      plan.arguments.assign(service.program.begin() + 1, service.program.end());
+      plans.push_back(std::move(plan));
+      continue;
+    }
+    plan.program = folder / service.info->program;
     if (::access(plan.program.c_str(), X_OK) != 0) {
       throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
                                service.name + "' of kind " + service.kind + " needs it");
@@ -86,17 +90,14 @@ std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::
     if (const int count = observers(service); count > 0) {
       plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
     }
-    const bool publishes = find_kind(service.kind)->output != MessageType::none;
-    plan.source = service.input.empty() && publishes;
-    plan.level = level;
-    plan.restart = service.restart == RestartPolicy::always;
+    plan.source = service.is_source();
     plan.again = {"--patience",
                   deployment.security ? patience_of_a_secured_restart : patience_of_a_restart};
-    if (!publishes) behind.push_back(plans.size());
+    if (service.info->exclusive) behind.push_back(plans.size());
     last_level = std::max(last_level, plan.level);
     plans.push_back(std::move(plan));
   }
-  // What publishes nothing is there for the others, and stops when they have.
+  // A device is there for the others, and stops when they have.
   for (const std::size_t index : behind) plans[index].level = last_level + 1;
   if (auto discovery = discovery_plan(deployment, copy.empty() ? deployment.file : copy))
     plans.push_back(std::move(*discovery));

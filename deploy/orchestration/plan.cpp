@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/parameters/changed_settings.hpp"
-#include "services/deployment/kinds.hpp"
+#include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {
 
@@ -18,7 +18,9 @@ const ServiceConfig* find(const Deployment& deployment, std::string_view name,
                           const std::string& host) {
   const auto found = std::find_if(
       deployment.services.begin(), deployment.services.end(),
-      [&](const ServiceConfig& service) { return label(service) == name && service.host == host; });
+      [&](const ServiceConfig& service) {
+        return label(service) == name && service.host == host && service.has_process();
+      });
   return found == deployment.services.end() ? nullptr : &*found;
 }
 
@@ -28,13 +30,6 @@ std::string arrow(const std::string& what, const std::string& from, const std::s
 
 std::string policy_name(RestartPolicy policy) {
   return policy == RestartPolicy::always ? "always" : "never";
-}
-
-/// Where the scans of a service come from.
-std::string source_of(const Deployment& deployment, const ServiceConfig& service) {
-  const ServiceConfig* origin = &service;
-  while (!origin->input.empty()) origin = &deployment.service(origin->input);
-  return origin->name;
 }
 
 std::string settings_text(const ParameterSettings& settings) {
@@ -52,7 +47,7 @@ std::filesystem::path folder_of(const Deployment& deployment) {
 
 /// Relative paths count from the folder of the deployment file.
 bool names_a_file(const ServiceConfig& service, const Deployment& deployment) {
-  const KindInfo& kind = *find_kind(service.kind);
+  const KindInfo& kind = *service.info;
   for (const ParameterSetting& setting : service.parameters) {
     const auto info =
         std::find_if(kind.parameters.begin(), kind.parameters.end(),
@@ -65,19 +60,70 @@ bool names_a_file(const ServiceConfig& service, const Deployment& deployment) {
   return false;
 }
 
+/// "front", or "lines, pose" of an observer, "lines=wctls, odometry=front" of several ports.
+std::string inputs_text(const ServiceConfig& service) {
+  std::string text;
+  for (const InputConfig& input : service.inputs) {
+    text += text.empty() ? "" : ", ";
+    if (service.inputs.size() > 1 && !input.port.empty()) text += input.port + "=";
+    text += input.service;
+  }
+  return text;
+}
+
+std::string qos_text(const std::vector<OutputConfig>& outputs) {
+  std::string text;
+  for (const OutputConfig& output : outputs) text += (text.empty() ? "" : ", ") + output.qos;
+  return text;
+}
+
+/// Other services behind its ports, or the same ones with another QoS; and its own QoS.
+void append_input_changes(const Deployment& running, const ServiceConfig& now,
+                          const Deployment& wanted, const ServiceConfig& then,
+                          std::vector<std::string>& reasons) {
+  if (now.inputs != then.inputs) {
+    reasons.push_back(arrow("input", inputs_text(now), inputs_text(then)));
+  }
+  if (now.kind == then.kind && now.outputs != then.outputs) {
+    reasons.push_back(arrow("qos", qos_text(now.outputs), qos_text(then.outputs)));
+  }
+  if (now.inputs != then.inputs || now.kind != then.kind) return;
+  const auto before = Graph(running).inputs_of(now);
+  const auto after = Graph(wanted).inputs_of(then);
+  for (std::size_t i = 0; i < before.size() && i < after.size(); ++i) {
+    const OutputConfig& from = before[i].output;
+    const OutputConfig& to = after[i].output;
+    if (from.qos != to.qos) {
+      reasons.push_back(arrow("qos of " + after[i].writer->name, from.qos, to.qos));
+    } else if (from != to) {
+      reasons.push_back(arrow("topic of " + after[i].writer->name, from.topic, to.topic));
+    }
+  }
+}
+
+const std::string& state_form(const ServiceConfig& service) {
+  static const std::string none;
+  for (const MethodInfo& method : service.info->methods) {
+    if (method.name == service.method) return method.state;
+  }
+  return none;
+}
+
+/// What a service has learned and its successor cannot go on with.
+std::string dropped_state(const ServiceConfig& now, const ServiceConfig& then) {
+  const std::string& form = state_form(now);
+  if (form.empty() || (now.kind == then.kind && form == state_form(then))) return "";
+  return ", drops its state (" + form + ")";
+}
+
 /// Why a running process cannot become what is wanted; "" when it can.
 std::string reason_to_replace(const Deployment& running, const ServiceConfig& now,
                               const Deployment& wanted, const ServiceConfig& then) {
   std::vector<std::string> reasons;
   if (now.kind != then.kind) reasons.push_back(arrow("kind", now.kind, then.kind));
-  if (now.input != then.input) reasons.push_back(arrow("input", now.input, then.input));
-  if (now.qos != then.qos) reasons.push_back(arrow("qos", now.qos, then.qos));
-  if (!then.input.empty() && now.input == then.input) {
-    const std::string& from = running.service(now.input).qos;
-    const std::string& to = wanted.service(then.input).qos;
-    if (from != to) reasons.push_back(arrow("qos of " + then.input, from, to));
-  }
-  const KindInfo& kind = *find_kind(then.kind);
+  if (now.program != then.program) reasons.push_back("program");
+  append_input_changes(running, now, wanted, then, reasons);
+  const KindInfo& kind = *then.info;
   if (now.kind == then.kind && kind.methods.empty()) {
     const std::string changed =
         settings_text(changed_settings(kind.parameters, now.parameters, then.parameters));
@@ -96,7 +142,7 @@ std::string reason_to_swap(const ServiceConfig& now, const ServiceConfig& then) 
   if (then.method.empty()) return "";
   const bool same_method = now.method == then.method;
   const std::string changed = settings_text(
-      changed_settings(parameters_of(*find_kind(then.kind), then.method),
+      changed_settings(parameters_of(*then.info, then.method),
                        same_method ? now.parameters : ParameterSettings{}, then.parameters));
   if (same_method) return changed;
   return arrow("method", now.method, then.method) + (changed.empty() ? "" : ", " + changed);
@@ -116,22 +162,23 @@ Change change_of(const Deployment& running, const Deployment& wanted, const Serv
   if (now == nullptr) {
     std::string detail = then.kind;
     if (!then.method.empty()) detail += "/" + then.method;
-    if (!then.input.empty()) detail += " reads " + then.input;
+    if (!then.inputs.empty()) detail += " reads " + inputs_text(then);
     return {ChangeAction::start, label(then), detail};
   }
   if (std::string reason = reason_to_replace(running, *now, wanted, then); !reason.empty()) {
     // The new process has the new method from its start.
     const std::string swapped = now->kind == then.kind ? reason_to_swap(*now, then) : "";
     if (!swapped.empty()) reason += ", " + swapped;
-    return {ChangeAction::replace, label(then), reason,
-            source_of(running, *now) == source_of(wanted, then)};
+    return {ChangeAction::replace, label(then), reason + dropped_state(*now, then),
+            Graph(running).source_of(*now).name == Graph(wanted).source_of(then).name};
   }
   const std::string policy =
       now->restart == then.restart
           ? ""
           : arrow("restart", policy_name(now->restart), policy_name(then.restart));
   if (std::string reason = reason_to_swap(*now, then); !reason.empty()) {
-    return {ChangeAction::swap, label(then), reason + (policy.empty() ? "" : ", " + policy)};
+    return {ChangeAction::swap, label(then),
+            reason + dropped_state(*now, then) + (policy.empty() ? "" : ", " + policy)};
   }
   if (!policy.empty()) return {ChangeAction::adjust, label(then), policy};
   return {ChangeAction::keep, label(then), ""};
@@ -199,7 +246,7 @@ Plan plan_changes(const Deployment& running, const Deployment& wanted, const std
   if (running.network != wanted.network) obstacle("the network cannot be changed");
   if (running.security != wanted.security) obstacle("security cannot be changed");
   for (const ServiceConfig& service : wanted.services) {
-    if (service.host != host) continue;
+    if (service.host != host || !service.has_process()) continue;
     const Change change = change_of(running, wanted, service);
     // Of two writers of one strength the readers hear one, until that is gone.
     if (change.action == ChangeAction::replace && service.strength) {
@@ -212,7 +259,8 @@ Plan plan_changes(const Deployment& running, const Deployment& wanted, const std
     plan.changes.push_back(change);
   }
   for (const ServiceConfig& service : running.services) {
-    if (service.host == host && find(wanted, label(service), host) == nullptr) {
+    if (service.host == host && service.has_process() &&
+        find(wanted, label(service), host) == nullptr) {
       plan.changes.push_back({ChangeAction::stop, label(service), ""});
     }
   }

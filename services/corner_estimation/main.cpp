@@ -5,7 +5,8 @@
 #include "core/corners/corner_finders.hpp"
 #include "services/topics/corners.hpp"
 #include "services/topics/lines.hpp"
-#include "services/runtime/node/stage.hpp"
+#include "services/runtime/node/run_node.hpp"
+#include "services/corner_estimation/kind.hpp"
 
 using namespace quoin;
 
@@ -32,5 +33,5 @@ runtime::Process<msg::Lines, msg::Corners> make(const std::string& method,
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Lines, msg::Corners>(argc, argv, "corner_estimation", make);
+  return runtime::run_stage<msg::Lines, msg::Corners>(argc, argv, corner_estimation_kind(), make);
 }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "services/deployment/kinds.hpp"
+#include "core/parameters/suggestion.hpp"
+#include "services/topics/topic_types.hpp"
 
 namespace quoin {
 
@@ -36,12 +37,16 @@ const ServiceConfig& Deployment::service(std::string_view name) const {
   return *found;
 }
 
-std::vector<const ServiceConfig*> Deployment::readers_of(std::string_view name) const {
-  std::vector<const ServiceConfig*> readers;
-  for (const ServiceConfig& s : services) {
-    if (s.input == name) readers.push_back(&s);
-  }
-  return readers;
+const OutputConfig* ServiceConfig::output(std::string_view type) const {
+  const auto found = std::find_if(outputs.begin(), outputs.end(),
+                                  [&](const OutputConfig& output) { return output.type == type; });
+  return found == outputs.end() ? nullptr : &*found;
+}
+
+std::string_view ServiceConfig::input(std::string_view port) const {
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [&](const InputConfig& input) { return input.port == port; });
+  return found == inputs.end() ? std::string_view() : found->service;
 }
 
 std::chrono::milliseconds discovery_pause(const NetworkConfig& network) {
@@ -59,11 +64,15 @@ std::vector<std::string> hosts_of(const Deployment& deployment) {
   return hosts;
 }
 
-std::string output_topic(const Deployment& deployment, const ServiceConfig& service) {
-  const KindInfo* kind = find_kind(service.kind);
-  if (kind == nullptr) throw std::invalid_argument("unknown kind '" + service.kind + "'");
-  if (kind->output == MessageType::none) return "";
-  return deployment.name_space + "/" + service.name + "/" + std::string(message_name(kind->output));
+std::string output_topic(std::string_view name_space, std::string_view name,
+                         std::string_view type) {
+  return std::string(name_space) + "/" + std::string(name) + "/" + std::string(type);
+}
+
+std::string effective_qos(std::string_view wanted, std::string_view type) {
+  const topics::TopicType* known = topics::find_topic_type(type);
+  const std::string_view usual = known == nullptr ? "feature" : known->qos;
+  return std::string(wanted.empty() || usual == "state" ? usual : wanted);
 }
 
 std::string status_topic(std::string_view name_space) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/parameters/parameter.hpp"
+#include "services/deployment/kind.hpp"
 
 namespace quoin {
 
@@ -78,13 +79,38 @@ struct SecurityConfig {
   friend bool operator==(const SecurityConfig&, const SecurityConfig&) = default;
 };
 
+/// An input port as the file wires it.
+struct InputConfig {
+  std::string port;     ///< of the kind; "" of an observer
+  std::string service;  ///< name of the one whose output is read
+  Position position;
+
+  friend bool operator==(const InputConfig& a, const InputConfig& b) {
+    return a.port == b.port && a.service == b.service;
+  }
+};
+
+/// A topic that a service writes.
+struct OutputConfig {
+  std::string type;   ///< of the table of topic types
+  std::string topic;  ///< <namespace>/<service>/<type>, or a stranger's own
+  std::string qos;    ///< preset: sensor, feature, state, lossless or best_effort
+  Rate rate = Rate::per_input;
+
+  friend bool operator==(const OutputConfig&, const OutputConfig&) = default;
+};
+
 struct ServiceConfig {
   std::string name;
   std::string kind;
-  std::string input;  ///< name of the service whose output is read; "" for sources
+  /// Null when this program does not know the kind, which only happens in a service.
+  const KindInfo* info = nullptr;
+  std::vector<InputConfig> inputs;    ///< in the order of the kind's ports; none of sources
+  std::vector<OutputConfig> outputs;  ///< in the order of the kind's; none when it is not known
+  bool observes_all = false;          ///< `inputs: all`, which stands in `inputs`, too
   std::string
       method;       ///< the kind's default when the file names none; "" for kinds without methods
-  std::string qos;  ///< preset of the output topic: sensor, feature, state or lossless
+  std::string qos;  ///< preset that the file asks for; "" when each type has its default
   ParameterSettings parameters;  ///< validated against the method or kind
   RestartPolicy restart = RestartPolicy::always;
   std::string host;  ///< where it runs; "" when the deployment names no hosts
@@ -93,7 +119,19 @@ struct ServiceConfig {
   std::optional<int> strength;
   /// With a strength: how long this instance may be silent before the next one is heard.
   std::chrono::milliseconds lease{100};
+  /// Of kind external: command line of a program to run with the deployment; else empty.
+  std::vector<std::string> program;
   Position position;  ///< of the service in the file
+
+  [[nodiscard]] bool external() const { return info == &external_kind(); }
+  /// Whether a process runs for it.
+  [[nodiscard]] bool has_process() const { return !external() || !program.empty(); }
+  /// Whether what it publishes comes from no other service.
+  [[nodiscard]] bool is_source() const { return inputs.empty() && !outputs.empty(); }
+  /// Null when it gives no such type.
+  [[nodiscard]] const OutputConfig* output(std::string_view type) const;
+  /// The service behind a port; "" when it is not wired.
+  [[nodiscard]] std::string_view input(std::string_view port) const;
 };
 
 /// A deployment file, validated: every name exists, every input fits, there is no cycle.
@@ -108,8 +146,6 @@ struct Deployment {
   /// By label, or by name: then the strongest of its instances. Throws std::out_of_range when there
   /// is no such service.
   [[nodiscard]] const ServiceConfig& service(std::string_view name) const;
-  /// Services that read the output of `name`.
-  [[nodiscard]] std::vector<const ServiceConfig*> readers_of(std::string_view name) const;
 };
 
 /// What tells an instance of a service from all others: the name, or name@strength where there is
@@ -127,8 +163,9 @@ class DeploymentError : public std::runtime_error {
   std::vector<std::string> messages_;
 };
 
-/// Reads and validates a deployment file. Throws DeploymentError with all that is wrong.
-[[nodiscard]] Deployment load_deployment(const std::filesystem::path& file);
+/// Reads and validates a deployment file of services of `kinds`. Throws DeploymentError with all
+/// that is wrong.
+[[nodiscard]] Deployment load_deployment(const std::filesystem::path& file, const KindList& kinds);
 
 /// The text of a deployment file, not more of it than parse_deployment takes. Throws
 /// DeploymentError.
@@ -136,7 +173,7 @@ class DeploymentError : public std::runtime_error {
 
 /// The same as load_deployment for text already in memory; `file` is what messages name.
 [[nodiscard]] Deployment parse_deployment(const std::string& text,
-                                          const std::filesystem::path& file);
+                                          const std::filesystem::path& file, const KindList& kinds);
 
 /// What `network:` with these entries would give. Throws DeploymentError, whose messages name no
 /// place.
@@ -150,9 +187,14 @@ class DeploymentError : public std::runtime_error {
 /// The hosts that services name, each once, in the order of the services; none when all run on one.
 [[nodiscard]] std::vector<std::string> hosts_of(const Deployment& deployment);
 
-/// Topic names: <namespace>/<service>/<type in lower case>, "" of a service that publishes nothing,
-/// and two shared by all services.
-[[nodiscard]] std::string output_topic(const Deployment& deployment, const ServiceConfig& service);
+/// Topic of an output of the service `name`.
+[[nodiscard]] std::string output_topic(std::string_view name_space, std::string_view name,
+                                       std::string_view type);
+/// The preset of a topic of that type when the file asks for `wanted`, "" for the default. What late
+/// joiners need the newest of (state) stays so, whatever is asked for.
+[[nodiscard]] std::string effective_qos(std::string_view wanted, std::string_view type);
+
+/// Topics shared by all services.
 [[nodiscard]] std::string status_topic(std::string_view name_space);
 [[nodiscard]] std::string control_request_topic(std::string_view name_space);
 [[nodiscard]] std::string control_reply_topic(std::string_view name_space);

@@ -21,12 +21,15 @@ constexpr int highest_domain = 232;
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : problems_(file) { deployment_.file = file; }
+  Reader(const std::filesystem::path& file, const KindList& kinds)
+      : kinds_(kinds), problems_(file) {
+    deployment_.file = file;
+  }
 
   Deployment read(const std::string& text) {
     const std::optional<YAML::Node> root = load_yaml(text, problems_);
     if (root) read_root(*root);
-    deployment_.services = wire(drafts_, problems_);
+    deployment_.services = wire(drafts_, deployment_.name_space, kinds_, problems_);
     problems_.raise();
     return std::move(deployment_);
   }
@@ -50,7 +53,7 @@ class Reader {
       } else if (entry.key == "domain") {
         read_domain(entry);
       } else if (entry.key == "qos") {
-        qos_ = read_choice(entry, "QoS preset", qos_names(), problems_);
+        qos_ = read_choice(entry, "QoS preset", deployment_qos_names(), problems_);
       } else if (entry.key == "network") {
         deployment_.network = read_network(entry, problems_);
       } else if (entry.key == "security") {
@@ -119,10 +122,11 @@ class Reader {
       return;
     }
     for (const YAML::Node& node : entry.value) {
-      if (auto draft = read_service(node, qos_, problems_)) drafts_.push_back(std::move(*draft));
+      if (auto draft = read_service(node, qos_, kinds_, problems_)) drafts_.push_back(std::move(*draft));
     }
   }
 
+  const KindList& kinds_;
   Problems problems_;
   Deployment deployment_;
   std::optional<std::string> qos_;
@@ -135,14 +139,15 @@ class Reader {
 
 }  // namespace
 
-Deployment parse_deployment(const std::string& text, const std::filesystem::path& file) {
+Deployment parse_deployment(const std::string& text, const std::filesystem::path& file,
+                            const KindList& kinds) {
   if (text.size() > largest_file)
     fail(file, "larger than 1 MiB; a deployment file is a few kilobytes");
-  return Reader(file).read(text);
+  return Reader(file, kinds).read(text);
 }
 
-Deployment load_deployment(const std::filesystem::path& file) {
-  return parse_deployment(read_deployment(file), file);
+Deployment load_deployment(const std::filesystem::path& file, const KindList& kinds) {
+  return parse_deployment(read_deployment(file), file, kinds);
 }
 
 std::string read_deployment(const std::filesystem::path& file) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/parameters/suggestion.hpp"
+#include "services/deployment/graph.hpp"
 
 namespace quoin {
 
@@ -47,39 +48,51 @@ Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
   return index;
 }
 
+/// Names of the kinds that give `type`.
+std::string writers_of(std::string_view type, const KindList& kinds) {
+  std::string names;
+  for (const KindInfo* kind : kinds.kinds) {
+    if (kind->output(type) != nullptr) names += (names.empty() ? "" : " or ") + kind->name;
+  }
+  return names.empty() ? "that gives " + std::string(type) : "of kind " + names;
+}
+
 /// Kinds to put one after the other between something that gives `from` and something that reads
-/// `to`; nothing when no chain of kinds does it.
-std::optional<std::vector<std::string>> kinds_between(MessageType from, MessageType to) {
+/// `to`; nothing when no chain of kinds with one input does it.
+std::optional<std::vector<std::string>> kinds_between(std::string from, const std::string& to,
+                                                      const KindList& kinds) {
   std::vector<std::string> chain;
   while (from != to) {
-    const auto next = std::find_if(kinds().begin(), kinds().end(),
-                                   [&](const KindInfo& kind) { return kind.input == from; });
-    if (next == kinds().end() || chain.size() > kinds().size()) return std::nullopt;
-    chain.push_back(next->name);
-    from = next->output;
+    const auto next =
+        std::find_if(kinds.kinds.begin(), kinds.kinds.end(), [&](const KindInfo* kind) {
+          return kind->inputs.size() == 1 && kind->inputs.front().type == from &&
+                 !kind->outputs.empty();
+        });
+    if (next == kinds.kinds.end() || chain.size() > kinds.kinds.size()) return std::nullopt;
+    chain.push_back((*next)->name);
+    from = (*next)->outputs.front().type;
   }
   return chain;
 }
 
-std::string givers_of(MessageType type) {
-  std::string names;
-  for (const KindInfo& kind : kinds()) {
-    if (kind.output == type) names += (names.empty() ? "" : " or ") + kind.name;
+std::string types_of(const ServiceConfig& service) {
+  std::string types;
+  for (const OutputConfig& output : service.outputs) {
+    types += (types.empty() ? "" : " and ") + output.type;
   }
-  return names;
+  return types;
 }
 
-std::string mismatch(const DraftService& source, const DraftService& reader) {
-  const MessageType given = source.kind->output;
-  const MessageType wanted = reader.kind->input;
-  if (given == MessageType::none) {
-    return "'" + source.config.name + "' of kind " + source.kind->name +
-           " publishes nothing; name a service of kind " + givers_of(wanted);
+std::string mismatch(const ServiceConfig& writer, const ServiceConfig& reader,
+                     const std::string& wanted, const KindList& kinds) {
+  if (writer.outputs.empty()) {
+    return "'" + writer.name + "' of kind " + writer.kind + " publishes nothing; name a service " +
+           writers_of(wanted, kinds);
   }
-  std::string text = "'" + source.config.name + "' gives " + std::string(message_name(given)) +
-                     " but " + reader.kind->name + " reads " + std::string(message_name(wanted));
-  const auto chain = kinds_between(given, wanted);
-  if (!chain) return text + "; name a service of kind " + givers_of(wanted);
+  std::string text = "'" + writer.name + "' gives " + types_of(writer) + " but " + reader.kind +
+                     " reads " + wanted;
+  const auto chain = kinds_between(writer.outputs.front().type, wanted, kinds);
+  if (!chain) return text + "; name a service " + writers_of(wanted, kinds);
   std::string kinds_text;
   for (const std::string& kind : *chain) {
     kinds_text += (kinds_text.empty() ? "a " : " and a ") + kind;
@@ -87,72 +100,80 @@ std::string mismatch(const DraftService& source, const DraftService& reader) {
   return text + "; put " + kinds_text + " between";
 }
 
-/// Services that are part of a circle of inputs; each circle is reported once.
-std::set<std::size_t> find_cycles(const std::vector<DraftService>& drafts, const Index& index,
-                                  Problems& problems) {
-  std::set<std::size_t> in_cycle;
-  for (std::size_t start = 0; start < drafts.size(); ++start) {
-    if (in_cycle.contains(start)) continue;
-    // Every service has one input at most, so a circle through `start` is found by following
-    // inputs.
-    std::vector<std::size_t> path{start};
-    while (path.size() <= drafts.size()) {
-      const auto next = index.find(drafts[path.back()].config.input);
-      if (next == index.end()) break;
-      if (next->second == start) {
-        in_cycle.insert(path.begin(), path.end());
-        if (path.size() == 1) {
-          problems.add(drafts[start].input_at,
-                       "'" + drafts[start].config.name +
-                           "' reads itself; name another service as its input");
-          break;
-        }
-        std::string text = "cycle: '" + drafts[start].config.name + "'";
-        for (std::size_t i = 1; i < path.size(); ++i) {
-          text += " reads '" + drafts[path[i]].config.name + "'";
-        }
-        text += " reads '" + drafts[start].config.name + "'; start from a source of scans";
-        problems.add(drafts[start].input_at, text);
-        break;
-      }
-      path.push_back(next->second);
+/// Where `reader` names `writer` as an input.
+Position place_of(const ServiceConfig& reader, const ServiceConfig& writer) {
+  for (const InputConfig& input : reader.inputs) {
+    if (input.service == writer.name) return input.position;
+  }
+  return reader.position;
+}
+
+/// Adds a problem for each cycle; returns the names of the services in them.
+std::set<std::string> check_cycles(const Graph& graph, Problems& problems) {
+  std::set<std::string> in_cycle;
+  for (const auto& cycle : graph.cycles()) {
+    for (const ServiceConfig* service : cycle) in_cycle.insert(service->name);
+    const ServiceConfig& first = *cycle.front();
+    if (cycle.size() == 1) {
+      problems.add(place_of(first, first),
+                   "'" + first.name + "' reads itself; name another service as its input");
+      continue;
     }
+    std::string text = "cycle: '" + first.name + "'";
+    for (std::size_t i = 1; i < cycle.size(); ++i) text += " reads '" + cycle[i]->name + "'";
+    problems.add(place_of(first, *cycle[1]),
+                 text + " reads '" + first.name + "'; start from a source of scans");
   }
   return in_cycle;
 }
 
-void check_input(const DraftService& service, const std::vector<DraftService>& drafts,
-                 const Index& index, Problems& problems) {
-  const std::string& input = service.config.input;
-  if (service.input_at.line == 0) {
-    if (service.kind != nullptr && service.kind->input != MessageType::none) {
-      problems.add(service.config.position, "service '" + service.config.name + "' of kind " +
-                                                service.kind->name + " needs an input that gives " +
-                                                std::string(message_name(service.kind->input)) +
-                                                "; add input: NAME of a service of kind " +
-                                                givers_of(service.kind->input));
+/// Each required port is wired, each wired one to a service that gives what it reads.
+void check_inputs(const ServiceConfig& service, const Index& index,
+                  const std::vector<ServiceConfig>& services, const KindList& kinds,
+                  Problems& problems) {
+  if (service.info != nullptr) {
+    for (const InputPort& port : service.info->inputs) {
+      if (!port.required || !service.input(port.name).empty()) continue;
+      const bool only = service.info->inputs.size() == 1;
+      problems.add(service.position,
+                   "service '" + service.name + "' of kind " + service.kind + " needs an input" +
+                       (only ? "" : " '" + port.name + "'") + " that gives " + port.type +
+                       (only ? "; add input: NAME of a service "
+                             : "; add " + port.name + ": NAME to its inputs, of a service ") +
+                       writers_of(port.type, kinds));
     }
-    return;
   }
-  if (service.kind != nullptr && service.kind->input == MessageType::none) {
-    problems.add(service.input_at,
-                 "kind " + service.kind->name +
-                     " is a source and reads no other service; remove the input of '" +
-                     service.config.name + "'");
-    return;
+  for (const InputConfig& input : service.inputs) {
+    const auto found = index.find(input.service);
+    if (found == index.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, unused] : index) names.push_back(name);
+      problems.add(input.position, "the input '" + input.service + "' of service '" +
+                                       service.name + "' does not exist" +
+                                       suggestion(input.service, names));
+      continue;
+    }
+    const ServiceConfig& writer = services[found->second];
+    const InputPort* port = service.info == nullptr ? nullptr : service.info->input(input.port);
+    if (writer.info == nullptr || (port == nullptr && !writer.outputs.empty())) continue;
+    const std::string wanted = port == nullptr ? "messages" : port->type;
+    if (writer.output(wanted) == nullptr) {
+      problems.add(input.position, mismatch(writer, service, wanted, kinds));
+    }
   }
-  const auto found = index.find(input);
-  if (found == index.end()) {
-    std::vector<std::string> names;
-    for (const auto& [name, unused] : index) names.push_back(name);
-    problems.add(service.input_at, "the input '" + input + "' of service '" + service.config.name +
-                                       "' does not exist" + suggestion(input, names));
-    return;
-  }
-  const DraftService& source = drafts[found->second];
-  if (service.kind != nullptr && source.kind != nullptr &&
-      source.kind->output != service.kind->input) {
-    problems.add(service.input_at, mismatch(source, service));
+}
+
+/// `inputs: all` stands for every service that gives anything.
+void expand_all(ServiceConfig& observer, const std::vector<DraftService>& drafts) {
+  if (!observer.observes_all) return;
+  std::set<std::string> seen;
+  for (const DraftService& draft : drafts) {
+    const ServiceConfig& other = draft.config;
+    const bool gives = other.info == nullptr || !other.outputs.empty() || !other.info->outputs.empty();
+    if (other.name.empty() || other.observes_all || !gives || !seen.insert(other.name).second) {
+      continue;
+    }
+    observer.inputs.push_back({"", other.name, observer.position});
   }
 }
 
@@ -167,40 +188,39 @@ void check_hosts(const std::vector<DraftService>& drafts, Problems& problems) {
   }
 }
 
+void fill_outputs(ServiceConfig& service, std::string_view name_space) {
+  if (service.info == nullptr || service.external()) return;
+  for (const OutputPort& port : service.info->outputs) {
+    service.outputs.push_back({.type = port.type,
+                               .topic = output_topic(name_space, service.name, port.type),
+                               .qos = effective_qos(service.qos, port.type),
+                               .rate = port.rate});
+  }
+}
+
 }  // namespace
 
-std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts, Problems& problems) {
+std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts,
+                                std::string_view name_space, const KindList& kinds,
+                                Problems& problems) {
   const Index index = index_names(drafts, problems);
-  const std::set<std::size_t> in_cycle = find_cycles(drafts, index, problems);
+  std::vector<ServiceConfig> services;
+  for (const DraftService& draft : drafts) {
+    ServiceConfig& service = services.emplace_back(draft.config);
+    expand_all(service, drafts);
+    fill_outputs(service, name_space);
+  }
+  const Graph graph(services, name_space);
+  const std::set<std::string> in_cycle = check_cycles(graph, problems);
   check_hosts(drafts, problems);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
-    // In a circle some type must mismatch too; saying so would only distract.
-    if (!in_cycle.contains(i)) check_input(drafts[i], drafts, index, problems);
+    // In a cycle some type must mismatch too; saying so would only distract.
+    if (drafts[i].inputs_are_wrong || in_cycle.contains(services[i].name)) continue;
+    check_inputs(services[i], index, services, kinds, problems);
   }
   std::vector<ServiceConfig> ordered;
   if (!problems.empty()) return ordered;
-
-  std::vector<const DraftService*> left;
-  for (const DraftService& draft : drafts) left.push_back(&draft);
-  const auto waits_for = [&](const DraftService& draft, const DraftService& other) {
-    return other.config.name == draft.config.input ||
-           (other.config.name == draft.config.name &&
-            other.config.strength > draft.config.strength);
-  };
-  while (!left.empty()) {
-    const auto next = std::find_if(left.begin(), left.end(), [&](const DraftService* draft) {
-      return std::none_of(left.begin(), left.end(),
-                          [&](const DraftService* other) { return waits_for(*draft, *other); });
-    });
-    if (next == left.end()) {
-      problems.add(left.front()->config.position,
-                   "cycle: '" + left.front()->config.name +
-                       "' reads itself by way of other instances; start from a source of scans");
-      return {};
-    }
-    ordered.push_back((*next)->config);
-    left.erase(next);
-  }
+  for (const ServiceConfig* service : graph.order()) ordered.push_back(*service);
   return ordered;
 }
 

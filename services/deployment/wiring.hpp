@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "services/deployment/deployment.hpp"
-#include "services/deployment/kinds.hpp"
+#include "services/deployment/kind.hpp"
 #include "services/deployment/problems.hpp"
 
 namespace quoin {
@@ -13,15 +14,15 @@ namespace quoin {
 /// A service as read, before it is known whether it fits the others.
 struct DraftService {
   ServiceConfig config;
-  const KindInfo* kind = nullptr;  ///< null when the kind is missing or unknown
   Position name_at;
-  Position input_at;  ///< of the input's value; line 0 when there is no input
+  bool inputs_are_wrong = false;  ///< something has been said of them already
 };
 
 /// Checks that names are unique and that inputs exist, fit and do not go in circles; what does not
-/// is added to `problems`. Returns the services with inputs before those who read them, else in the
-/// order of the file.
+/// is added to `problems`. Fills in the topics. Returns the services with inputs before those who
+/// read them, else in the order of the file.
 [[nodiscard]] std::vector<ServiceConfig> wire(const std::vector<DraftService>& drafts,
+                                              std::string_view name_space, const KindList& kinds,
                                               Problems& problems);
 
 }  // namespace quoin

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <set>
 
-#include "services/deployment/kinds.hpp"
+#include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
 
 namespace quoin {
@@ -25,9 +25,10 @@ std::string topics_text(const std::string& verb, const std::vector<std::string>&
 std::vector<std::string> all_outputs(const Deployment& deployment) {
   std::set<std::string> patterns;
   for (const ServiceConfig& service : deployment.services) {
-    const MessageType type = find_kind(service.kind)->output;
-    if (type == MessageType::none) continue;
-    patterns.insert(deployment.name_space + "/*/" + std::string(message_name(type)));
+    for (const OutputConfig& output : service.outputs) {
+      patterns.insert(service.external() ? output.topic
+                                         : output_topic(deployment.name_space, "*", output.type));
+    }
   }
   return {patterns.begin(), patterns.end()};
 }
@@ -49,11 +50,10 @@ TopicRule rule_of(const Deployment& deployment, const std::string& identity) {
     return rule;
   }
   const ServiceConfig& service = deployment.service(identity);
-  const std::string output = output_topic(deployment, service);
-  if (!output.empty()) rule.writes.push_back(output);
+  for (const OutputConfig& output : service.outputs) rule.writes.push_back(output.topic);
   rule.writes.insert(rule.writes.end(), {status, reply});
-  if (!service.input.empty()) {
-    rule.reads.push_back(output_topic(deployment, deployment.service(service.input)));
+  for (const Connection& input : Graph(deployment).inputs_of(service)) {
+    rule.reads.push_back(input.output.topic);
   }
   rule.reads.push_back(request);
   return rule;

@@ -6,7 +6,8 @@
 #include "core/fitting/fitters.hpp"
 #include "services/topics/lines.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/node/stage.hpp"
+#include "services/runtime/node/run_node.hpp"
+#include "services/line_fitting/kind.hpp"
 
 using namespace quoin;
 
@@ -42,5 +43,5 @@ runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Segments, msg::Lines>(argc, argv, "line_fitting", make);
+  return runtime::run_stage<msg::Segments, msg::Lines>(argc, argv, line_fitting_kind(), make);
 }

@@ -4,7 +4,8 @@
 
 #include "core/segmentation/segmenters.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/node/stage.hpp"
+#include "services/runtime/node/run_node.hpp"
+#include "services/segmentation/kind.hpp"
 
 using namespace quoin;
 
@@ -31,5 +32,5 @@ runtime::Process<msg::Scan, msg::Segments> make(const std::string& method,
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Scan, msg::Segments>(argc, argv, "segmentation", make);
+  return runtime::run_stage<msg::Scan, msg::Segments>(argc, argv, segmentation_kind(), make);
 }

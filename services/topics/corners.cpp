@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/topics/corners.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode,
                   msg::Corners& out) {
@@ -30,4 +30,4 @@ void fill_corners(const std::vector<Corner>& corners, const std::string& covaria
   }
 }
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

@@ -7,10 +7,10 @@
 
 #include "core/corners/corner_finder.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 /// Everything but the header.
 void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode,
                   msg::Corners& out);
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

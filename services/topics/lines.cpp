@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 namespace {
 
@@ -52,4 +52,4 @@ void line_segments(const msg::Lines& message, std::vector<LineSegment>& out) {
   }
 }
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

@@ -9,7 +9,7 @@
 #include "core/corners/corner_finder.hpp"
 #include "core/fitting/fit.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 /// Appends the line fitted to `points`, which are segment number `segment` of the scan, with the
 /// projections of its first and last point.
@@ -21,4 +21,4 @@ void append_failure(FitFailure failure, std::uint32_t segment, msg::Lines& out);
 /// The lines of a message; the vector is cleared first.
 void line_segments(const msg::Lines& message, std::vector<LineSegment>& out);
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

@@ -37,14 +37,22 @@ Json header(const msg::Header& value) {
   Json trace = Json::array();
   for (const msg::StageTrace& stage : value.trace()) {
     trace.push_back({{"service", stage.service()},
+                     {"input", stage.input()},
                      {"method", stage.method()},
                      {"incarnation", stage.incarnation()},
                      {"index", stage.index()},
                      {"received", stage.received()},
                      {"published", stage.published()}});
   }
-  return {{"sensor", value.sensor()},
-          {"sequence_number", value.sequence_number()},
+  Json origins = Json::array();
+  for (const msg::Origin& origin : value.origins()) {
+    origins.push_back({{"source", origin.source()},
+                       {"incarnation", origin.incarnation()},
+                       {"sequence_number", origin.sequence_number()},
+                       {"part", origin.part()},
+                       {"parts", origin.parts()}});
+  }
+  return {{"origins", origins},
           {"stamp", value.stamp()},
           {"frame", value.frame()},
           {"trace", trace}};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/topics/segments.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 SensorModel sensor_model(const msg::SensorModel& message) {
   return {message.range_stddev(), message.bearing_stddev(), message.range_bias_stddev()};
@@ -41,4 +41,4 @@ bool valid(const msg::Segments& message) {
   return true;
 }
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

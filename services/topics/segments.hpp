@@ -10,7 +10,7 @@
 #include "core/sensor/scan.hpp"
 #include "core/sensor/sensor_model.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 
 [[nodiscard]] SensorModel sensor_model(const msg::SensorModel& message);
 [[nodiscard]] msg::SensorModel sensor_model_message(const SensorModel& model);
@@ -25,4 +25,4 @@ void fill_segments(const msg::Scan& scan, const Points& points,
 /// True when every range of the message lies inside its points; a stranger may have sent it.
 [[nodiscard]] bool valid(const msg::Segments& message);
 
-}  // namespace quoin::messages
+}  // namespace quoin::topics

@@ -40,7 +40,55 @@ void print(std::ostream& out, const std::vector<ParameterInfo>& parameters,
   }
 }
 
+std::string join_name(Join join) {
+  switch (join) {
+    case Join::each:
+      return "each";
+    case Join::latest:
+      return "latest";
+    case Join::by_time:
+      return "by_time";
+  }
+  return "unknown";
+}
+
+Json inputs_json(const KindInfo& kind) {
+  Json inputs = Json::array();
+  for (const InputPort& port : kind.inputs) {
+    inputs.push_back({{"port", port.name},
+                      {"type", port.type},
+                      {"join", join_name(port.join)},
+                      {"required", port.required}});
+  }
+  return inputs;
+}
+
+Json outputs_json(const KindInfo& kind) {
+  Json outputs = Json::array();
+  for (const OutputPort& port : kind.outputs) {
+    outputs.push_back(
+        {{"type", port.type}, {"rate", port.rate == Rate::per_input ? "per_input" : "own_rate"}});
+  }
+  return outputs;
+}
+
 }  // namespace
+
+std::string ports_text(const KindInfo& kind) {
+  std::string outputs;
+  for (const OutputPort& port : kind.outputs) {
+    outputs += (outputs.empty() ? "" : " and ") + port.type;
+  }
+  if (!kind.reads()) return outputs.empty() ? "publishes nothing" : "source of " + outputs;
+  std::string inputs;
+  for (const InputPort& port : kind.inputs) {
+    inputs += (inputs.empty() ? "" : ", ") + port.type;
+    if (kind.inputs.size() == 1) continue;
+    inputs += " (" + port.name + ": " + join_name(port.join) + (port.required ? ")" : ", optional)");
+  }
+  if (kind.observer) inputs = "any messages";
+  return "reads " + inputs + ", publishes " + (outputs.empty() ? "nothing" : outputs);
+}
 
 Json description_json(const KindInfo& kind) {
   Json methods = Json::array();
@@ -54,9 +102,10 @@ Json description_json(const KindInfo& kind) {
   return {{"kind", kind.name},
           {"description", kind.description},
           {"program", kind.program},
-          {"input", message_name(kind.input)},
-          {"output", message_name(kind.output)},
-          {"qos", kind.qos},
+          {"input", kind.inputs.empty() ? "none" : kind.inputs.front().type},
+          {"output", kind.outputs.empty() ? "none" : kind.outputs.front().type},
+          {"inputs", inputs_json(kind)},
+          {"outputs", outputs_json(kind)},
           {"methods", methods},
           {"parameters", parameters_json(kind.parameters)}};
 }
@@ -64,12 +113,7 @@ Json description_json(const KindInfo& kind) {
 std::string description_text(const KindInfo& kind) {
   std::ostringstream out;
   out << kind.name << ": " << kind.description << "\n  ";
-  if (kind.input == MessageType::none) {
-    out << "source of " << message_name(kind.output) << '\n';
-  } else {
-    out << "reads " << message_name(kind.input) << ", publishes " << message_name(kind.output)
-        << '\n';
-  }
+  out << ports_text(kind) << '\n';
   print(out, kind.parameters, "    ");
   for (const MethodInfo& method : kind.methods) {
     out << "  " << method.name << (&method == &kind.methods.front() ? " (default)" : "") << ": "

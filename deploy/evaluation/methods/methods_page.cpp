@@ -11,6 +11,7 @@
 #include "deploy/evaluation/methods/figure_tables.hpp"
 #include "deploy/evaluation/methods/markdown.hpp"
 #include "deploy/evaluation/methods/parameter_text.hpp"
+#include "deploy/evaluation/methods/description.hpp"
 
 namespace quoin::deploy {
 
@@ -70,17 +71,16 @@ std::string method_text(const MethodInfo& method, bool is_default,
 }
 
 std::string figures_of(const KindInfo& kind, const MeasuredFigures& figures) {
-  if (kind.output == MessageType::segments) return segmenter_tables(figures);
-  if (kind.output == MessageType::lines) return fitter_tables(figures);
+  if (kind.output("segments") != nullptr) return segmenter_tables(figures);
+  if (kind.output("lines") != nullptr) return fitter_tables(figures);
   return "";
 }
 
 std::string kind_text(const KindInfo& kind, const MeasuredFigures* figures) {
   const std::vector<ParameterInfo> shared = shared_parameters(kind.methods);
   std::string text = "## " + kind.name + "\n\n" +
-                     markdown_paragraph(sentence(kind.description) + " Reads " +
-                                        std::string(message_name(kind.input)) + ", publishes " +
-                                        std::string(message_name(kind.output)) + ".");
+                     markdown_paragraph(sentence(kind.description) + " " +
+                                        sentence(ports_text(kind)));
   if (!shared.empty()) {
     text += markdown_paragraph("All of its methods have these parameters, and those told below:") +
             parameter_table(shared);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "services/deployment/kinds.hpp"
 #include "deploy/evaluation/methods/measured_figures.hpp"
+#include "services/deployment/kind.hpp"
 
 namespace quoin::deploy {
 

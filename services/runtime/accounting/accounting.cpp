@@ -28,6 +28,20 @@ auto* find_account(Accounts& accounts, std::uint64_t incarnation) {
 
 }  // namespace
 
+std::string to_text(const LossSite& site) {
+  switch (site.place) {
+    case LossPlace::service:
+      return site.service;
+    case LossPlace::link:
+      return "the link";
+    case LossPlace::start:
+      return "the start";
+    case LossPlace::end:
+      return "the end";
+  }
+  return "unknown";
+}
+
 // How a message stands to the one before.
 enum class ScanAccounting::Change {
   begin,    // nothing is to be said of the scans in between
@@ -78,16 +92,17 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
     if (stage.restarted || same_source) stage.count = std::min(stage.count, given);
     given = stage.count;
   }
-  const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, const std::string& stage) {
+  const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, LossSite site) {
     if (made_of_it >= had) return;
-    losses.push_back({first, topics::sequence_number(header) - 1, had - made_of_it, stage});
+    losses.push_back({first, topics::sequence_number(header) - 1, had - made_of_it, std::move(site)});
   };
   // Scans that were taken but never written are the source's own loss.
-  add(topics::sequence_number(header) - first, made[0].count, header.trace()[0].service());
+  add(topics::sequence_number(header) - first, made[0].count,
+      {LossPlace::service, header.trace()[0].service()});
   for (std::size_t i = 1; i < made.size(); ++i) {
-    add(made[i - 1].count, made[i].count, header.trace()[i].service());
+    add(made[i - 1].count, made[i].count, {LossPlace::service, header.trace()[i].service()});
   }
-  add(made.back().count, 0, "link");
+  add(made.back().count, 0, {LossPlace::link});
   return losses;
 }
 
@@ -100,7 +115,7 @@ bool ScanAccounting::continues_numbers(const msg::Header& header) const {
          topics::sequence_number(header) - source.index() > previous_->sequence_number;
 }
 
-// How a message of the same sensor stands to the one before.
+// How a message of the same source stands to the one before.
 ScanAccounting::Change ScanAccounting::change_to(const msg::Header& header) const {
   if (continues_numbers(header)) return Change::go_on;
   return took_over(header, 0) ? Change::begin : Change::restart;
@@ -126,7 +141,7 @@ bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
 // The usual case: the next result of every stage.
 bool ScanAccounting::follows(const msg::Header& header) const {
   return topics::sequence_number(header) == previous_->sequence_number + 1 &&
-         topics::source(header) == previous_->sensor &&
+         topics::source(header) == previous_->source &&
          std::equal(header.trace().begin(), header.trace().end(), previous_->stages.begin(),
                     previous_->stages.end(),
                     [](const msg::StageTrace& now, const StagePosition& then) {
@@ -137,7 +152,7 @@ bool ScanAccounting::follows(const msg::Header& header) const {
 
 void ScanAccounting::remember(const msg::Header& header) {
   if (!previous_) previous_ = Previous{};
-  previous_->sensor = topics::source(header);
+  previous_->source = topics::source(header);
   previous_->sequence_number = topics::sequence_number(header);
   previous_->stages.resize(header.trace().size());
   for (std::size_t i = 0; i < header.trace().size(); ++i) {
@@ -154,7 +169,7 @@ void ScanAccounting::return_to(const msg::Header& header) {
   const msg::StageTrace& source = header.trace()[0];
   if (source.incarnation() == previous_->stages[0].incarnation || took_over(header, 0)) return;
   for (Previous& earlier : earlier_) {
-    if (earlier.sensor == topics::source(header) &&
+    if (earlier.source == topics::source(header) &&
         earlier.stages[0].incarnation == source.incarnation()) {
       std::swap(earlier, *previous_);
       return;
@@ -193,7 +208,7 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   Change change = Change::begin;
   if (!previous_) {
     first_sequence_ = topics::sequence_number(header);
-  } else if (topics::source(header) == previous_->sensor && !follows(header)) {
+  } else if (topics::source(header) == previous_->source && !follows(header)) {
     return_to(header);
     change = change_to(header);
     if ((change == Change::go_on && topics::sequence_number(header) <= previous_->sequence_number) ||
@@ -203,7 +218,7 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
       return losses;
     }
     if (change != Change::begin) losses = losses_before(header, change == Change::go_on);
-    for (const Loss& loss : losses) lost_by_stage_[loss.stage] += loss.count;
+    for (const Loss& loss : losses) lost_by_site_[loss.site] += loss.count;
     if (header.trace()[0].incarnation() != previous_->stages[0].incarnation) {
       if (earlier_.size() == most_sources) earlier_.erase(earlier_.begin());
       earlier_.push_back(*previous_);
@@ -217,7 +232,7 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
 
 std::uint64_t ScanAccounting::lost() const {
   std::uint64_t sum = 0;
-  for (const auto& [stage, count] : lost_by_stage_) sum += count;
+  for (const auto& [site, count] : lost_by_site_) sum += count;
   return sum;
 }
 

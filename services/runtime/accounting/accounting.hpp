@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <idl/Common.h>
 #include <map>
@@ -11,15 +12,35 @@
 
 namespace quoin::runtime {
 
-/// Scans missing between two messages of a topic, and the stage that did not deliver them.
+/// Where scans get lost.
+enum class LossPlace {
+  service,  ///< in a service, which received them and gave no result
+  link,     ///< between the last service and the reader that counts
+  start,    ///< before the first message that this reader got
+  end,      ///< behind the last one
+};
+
+struct LossSite {
+  LossPlace place = LossPlace::service;
+  std::string service = {};  ///< "" unless the place is a service
+
+  friend auto operator<=>(const LossSite&, const LossSite&) = default;
+};
+
+/// "walls", "the link", "the start", "the end": for people, who know which services there are.
+[[nodiscard]] std::string to_text(const LossSite& site);
+
+using LossCounts = std::map<LossSite, std::uint64_t>;
+
+/// Scans missing between two messages of a topic, and where they were lost.
 struct Loss {
   std::uint64_t first_sequence = 0;
   std::uint64_t last_sequence = 0;  ///< included
   std::uint64_t count = 0;          ///< scans of this range that the stage did not deliver
-  std::string stage;  ///< service name; the reader's own input link has the name "link"
+  LossSite site;
 };
 
-/// What a reader has settled of one process of a source.
+/// What a reader has accounted for of one process of a source.
 struct SourceAccount {
   std::uint64_t incarnation = 0;
   /// What it published and was delivered, is lost, or was for nobody. Losses that are known to be
@@ -47,7 +68,7 @@ struct SourceAccount {
 class ScanAccounting {
  public:
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
-  /// the first message of a sensor are not lost: nobody was listening.
+  /// the first message of a source are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
 
   /// From here to the next message nobody listens: nothing in between is lost.
@@ -61,10 +82,7 @@ class ScanAccounting {
   [[nodiscard]] std::uint64_t received() const { return received_; }
   [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }
   [[nodiscard]] std::uint64_t lost() const;
-  /// Lost scans by stage; "link" is the link from the last stage to this reader.
-  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost_by_stage() const {
-    return lost_by_stage_;
-  }
+  [[nodiscard]] const LossCounts& lost_by_site() const { return lost_by_site_; }
   /// Number of the first scan received; nothing before that.
   [[nodiscard]] std::optional<std::uint64_t> first_sequence() const { return first_sequence_; }
   /// The processes of sources in the order in which they were first heard.
@@ -79,7 +97,7 @@ class ScanAccounting {
     std::int64_t published = 0;  // [ns since the Unix epoch]
   };
   struct Previous {
-    std::string sensor;
+    std::string source;
     std::uint64_t sequence_number = 0;
     std::vector<StagePosition> stages;
   };
@@ -104,7 +122,7 @@ class ScanAccounting {
   std::uint64_t received_ = 0;
   std::uint64_t duplicates_ = 0;
   bool last_was_duplicate_ = false;
-  std::map<std::string, std::uint64_t> lost_by_stage_;
+  LossCounts lost_by_site_;
 };
 
 }  // namespace quoin::runtime

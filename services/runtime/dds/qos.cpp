@@ -18,18 +18,19 @@ QosPreset qos_preset(std::string_view name) {
   if (name == "state") return QosPreset::state;
   if (name == "control") return QosPreset::control;
   if (name == "lossless") return QosPreset::lossless;
+  if (name == "best_effort") return QosPreset::best_effort;
   throw std::invalid_argument("unknown QoS preset '" + std::string(name) + "'");
 }
 
-TopicQos output_qos(const ServiceConfig& service) {
-  TopicQos qos = qos_preset(service.qos);
+TopicQos output_qos(const ServiceConfig& service, const OutputConfig& output) {
+  TopicQos qos = qos_preset(output.qos);
   qos.strength = service.strength;
   qos.lease = service.lease;
   return qos;
 }
 
-TopicQos onlooker_qos(const ServiceConfig& service) {
-  TopicQos qos = output_qos(service);
+TopicQos observer_qos(const ServiceConfig& service, const OutputConfig& output) {
+  TopicQos qos = output_qos(service, output);
   if (qos.preset == QosPreset::lossless) qos.preset = QosPreset::feature;
   return qos;
 }
@@ -46,6 +47,7 @@ int depth(QosPreset preset) {
     case QosPreset::sensor:
       return 5;
     case QosPreset::feature:
+    case QosPreset::best_effort:
       return 32;
     case QosPreset::state:
       return 1;
@@ -63,7 +65,8 @@ Qos common_qos(Qos qos, const TopicQos& topic) {
   const QosPreset preset = topic.preset;
   const bool keyed = preset == QosPreset::state;
   const int samples = depth(preset);
-  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind = preset == QosPreset::best_effort ? dds::BEST_EFFORT_RELIABILITY_QOS
+                                                            : dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = Duration_t(1, 0);
   qos.durability().kind =
       keyed ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;

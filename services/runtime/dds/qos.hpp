@@ -17,6 +17,7 @@ enum class QosPreset {
   state,     ///< reliable, transient-local, keep last 1 per instance: late joiners get the latest
   control,   ///< reliable, volatile, keep last 256: requests and replies
   lossless,  ///< reliable, keep all: a slow reader slows the writer down (replay, evaluation)
+  best_effort,  ///< volatile, keep last 32, nothing is sent again: what strangers write
 };
 
 /// Throws std::invalid_argument for an unknown name.
@@ -35,11 +36,11 @@ struct TopicQos {
   TopicQos(QosPreset preset_of_topic) : preset(preset_of_topic) {}
 };
 
-/// Of the output topic of `service`, for its writer and for its readers.
-[[nodiscard]] TopicQos output_qos(const ServiceConfig& service);
+/// Of an output of `service`, for its writer and for its readers.
+[[nodiscard]] TopicQos output_qos(const ServiceConfig& service, const OutputConfig& output);
 
-/// Of a reader of that topic that only looks, and must not slow the writer down as a lossless one
+/// Of a reader of that output that only looks, and must not slow the writer down as a lossless one
 /// would.
-[[nodiscard]] TopicQos onlooker_qos(const ServiceConfig& service);
+[[nodiscard]] TopicQos observer_qos(const ServiceConfig& service, const OutputConfig& output);
 
 }  // namespace quoin::runtime

@@ -53,7 +53,14 @@ std::vector<std::string> ReaderBase::incompatible_qos() const {
 bool ReaderBase::take_raw(void* sample) {
   dds::SampleInfo info;
   while (impl_->reader->take_next_sample(sample, &info) == ReturnCode_t::RETCODE_OK) {
-    if (info.valid_data) return true;  // others tell of instances that ended
+    if (!info.valid_data) continue;  // tells of an instance that ended
+    const auto& writer = info.sample_identity.writer_guid();
+    std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+    for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
+    for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
+    last_sample_ = {hash, info.sample_identity.sequence_number().to64long(),
+                    info.source_timestamp.to_ns()};
+    return true;
   }
   return false;
 }

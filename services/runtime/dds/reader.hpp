@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,14 @@ class ReaderBase {
   /// Writers of this topic that do not fit, each with topic, policy and both sides' values.
   [[nodiscard]] std::vector<std::string> incompatible_qos() const;
 
+  /// Where the message that was taken last came from, as DDS counts.
+  struct Sample {
+    std::uint64_t writer = 0;           ///< another one for another writer
+    std::uint64_t sequence_number = 0;  ///< of the sample among those of that writer, from 1
+    std::int64_t sent = 0;              ///< [ns since the Unix epoch], by the writer's clock
+  };
+  [[nodiscard]] const Sample& last_sample() const { return last_sample_; }
+
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }
 
@@ -34,6 +43,7 @@ class ReaderBase {
 
  private:
   std::unique_ptr<Impl> impl_;
+  Sample last_sample_;
 };
 
 /// Reads messages of one of the idl types from a topic. Throws std::runtime_error when DDS refuses

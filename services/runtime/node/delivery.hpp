@@ -3,12 +3,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <idl/Common.h>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/ports.hpp"
 #include "services/runtime/process/pulse.hpp"
-#include "services/runtime/process/stop_signal.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/process/service_record.hpp"
 
 namespace quoin::runtime {
 
@@ -18,26 +18,19 @@ namespace quoin::runtime {
 inline constexpr std::chrono::seconds longest_wait_for_room{1};
 inline constexpr std::chrono::seconds longest_wait_for_acknowledgments{2};
 
-/// Stamps `trace` (which is part of `message`) and writes the message. With the lossless preset the
-/// write is tried again while slow readers keep the history full, until longest_wait_for_room after
-/// the stop is requested; else it never waits. False when the message was not written. `pulse`
-/// is that of the writing thread, which is alive while it waits for readers.
-template <class T>
-bool deliver(Writer<T>& writer, const T& message, msg::StageTrace& trace, bool lossless,
-             const StopSignal& stop, Pulse& pulse) {
-  using std::chrono::steady_clock;
-  auto deadline = steady_clock::time_point::max();
-  while (true) {
-    pulse.beat();
-    trace.published(now_ns());
-    if (writer.write(message)) return true;
-    if (!lossless) return false;
-    if (stop.requested()) {
-      const auto now = steady_clock::now();
-      if (deadline == steady_clock::time_point::max()) deadline = now + longest_wait_for_room;
-      if (now >= deadline) return false;
-    }
-  }
-}
+/// What the thread that data passes through works with.
+struct DataThread {
+  ServiceRecord& record;
+  Pulse& pulse;                      ///< alive while it waits for readers
+  std::function<bool()> stopping;    ///< whether the service was asked to stop
+};
+
+/// Stamps `trace` (which is part of the output's message) and writes the message. With the lossless
+/// preset the write is tried again while slow readers keep the history full, until
+/// longest_wait_for_room after the stop is requested; readers that are dead are dropped meanwhile,
+/// and the record says who keeps it waiting. Otherwise it never waits. False when the message was
+/// not written.
+[[nodiscard]] bool deliver(Output& output, msg::StageTrace& trace, bool lossless,
+                           DataThread& thread);
 
 }  // namespace quoin::runtime

@@ -3,14 +3,13 @@
 #include "services/runtime/node/source.hpp"
 
 #include <exception>
-#include <limits>
 #include <optional>
 
 #include <spdlog/spdlog.h>
 
 #include "services/runtime/process/clock.hpp"
 #include "services/runtime/process/control.hpp"
-#include "services/runtime/node/delivery.hpp"
+#include "services/runtime/node/node.hpp"
 #include "services/runtime/process/service_activity.hpp"
 #include "services/topics/header.hpp"
 
@@ -18,54 +17,84 @@ namespace quoin::runtime {
 
 namespace {
 
+using Outputs = std::vector<Node::OutputPart>;
+
 class PublishingSource final : public ServiceActivity<Source> {
  public:
-  PublishingSource(Service& service, Writer<msg::Scan>& writer, std::uint64_t first)
+  PublishingSource(Service& service, Outputs& outputs, std::uint64_t first)
       : ServiceActivity<Source>(service),
-        writer_(writer),
-        lossless_(qos_preset(service.config.qos) == QosPreset::lossless),
+        thread_(service.data_thread()),
+        outputs_(outputs),
+        next_index_(outputs.size(), 0),
         next_sequence_(first) {}
 
   [[nodiscard]] std::uint64_t next_sequence() const { return next_sequence_; }
 
   bool publish(msg::Scan& scan) override {
     if (service_.stop.requested()) return false;
-    msg::Header& header = scan.header();
-    topics::set_origin(header, service_.config.name, service_.heartbeat.incarnation(),
-                       next_sequence_++);
-    header.trace().resize(1);
-    msg::StageTrace& trace = header.trace()[0];
-    trace.service(service_.config.name);
-    trace.incarnation(service_.heartbeat.incarnation());
-    trace.index(next_index_);
-    trace.received(now_ns());
-    const bool delivered =
-        deliver(writer_, scan, trace, lossless_, service_.stop, service_.heartbeat.pulse());
-    if (delivered) {
-      ++next_index_;
-      service_.heartbeat.count_published(trace.published(), trace.received(), trace.published(), 0);
+    const std::int64_t taken = now_ns();
+    const std::int64_t published = write(0, &scan, scan.header(), next_sequence_++, taken);
+    if (published > 0) {
+      service_.record.count_result(published, taken, published, 0);
     } else {
-      service_.heartbeat.count_loss(LossCause::publishing);
+      service_.record.count_loss(LossCause::publishing);
     }
     return !service_.stop.requested();
   }
 
+ protected:
+  bool publish_own(const std::type_info& type, void* message, msg::Header& header) override {
+    for (std::size_t i = 1; i < outputs_.size(); ++i) {
+      if (outputs_[i].output->type() != type) continue;
+      if (service_.stop.requested()) return false;
+      (void)write(i, message, header, next_index_[i], now_ns());
+      return !service_.stop.requested();
+    }
+    throw std::logic_error("no output of that message type");
+  }
+
  private:
-  Writer<msg::Scan>& writer_;
-  bool lossless_;
-  std::uint64_t next_sequence_;
-  std::uint64_t next_index_ = 0;
+  /// The time of its publication [ns]; 0 when it was not taken.
+  std::int64_t write(std::size_t index, void* message, msg::Header& header,
+                     std::uint64_t sequence_number, std::int64_t taken) {
+    Node::OutputPart& part = outputs_[index];
+    topics::set_origin(header, service_.config.name, service_.record.incarnation(),
+                       sequence_number);
+    header.trace().resize(1);
+    msg::StageTrace& trace = header.trace().front();
+    trace.service(service_.config.name);
+    trace.incarnation(service_.record.incarnation());
+    trace.index(next_index_[index]);
+    trace.received(taken);
+    part.output->use(message);
+    const bool written = deliver(*part.output, trace, part.lossless, thread_);
+    service_.record.count_output(index, written);
+    if (!written) return 0;
+    ++next_index_[index];
+    return trace.published();
+  }
+
+  DataThread thread_;
+  Outputs& outputs_;
+  std::vector<std::uint64_t> next_index_;  // by output
+  std::uint64_t next_sequence_;            // of the scans
 };
 
 /// The number of the first scan; nothing when asked to stop before there is one to publish.
-std::optional<std::uint64_t> wait_for_begin(Service& service, const WriterBase& writer) {
-  if (!service.wait_for_readers(writer)) return std::nullopt;
-  if (!service.succession.held()) return 0;
-  service.heartbeat.set_state(msg::ServiceState::STATE_HELD);
+std::optional<std::uint64_t> wait_for_begin(Service& service, const Outputs& outputs,
+                                            Succession& succession) {
+  std::vector<const Output*> waiting;
+  for (const Node::OutputPart& part : outputs) waiting.push_back(part.output.get());
+  if (!service.wait_for_readers(waiting, succession)) return std::nullopt;
+  if (!succession.held()) return 0;
+  service.record.set_state(msg::ServiceState::STATE_HELD);
   while (true) {
-    const std::optional<std::uint64_t> first = service.succession.begin();
-    if (first) service.heartbeat.set_first_sequence_number(*first);
-    if (first) return first;
+    if (const auto begin = succession.begin()) {
+      const auto position = begin->positions.find("");
+      const std::uint64_t first = position == begin->positions.end() ? 0 : position->second;
+      service.record.set_first_sequence_number(first);
+      return first;
+    }
     const auto soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
     if (!service.stop.wait_until(soon)) return std::nullopt;
   }
@@ -73,47 +102,70 @@ std::optional<std::uint64_t> wait_for_begin(Service& service, const WriterBase& 
 
 /// What has been written must reach the readers before the writer goes. They may just be getting to
 /// know it when a short source is finished, which nobody wants to end at a certain time.
-bool all_is_acknowledged(const Service& service, WriterBase& writer) {
+bool all_is_acknowledged(const Service& service, const Outputs& outputs) {
   using std::chrono::steady_clock;
   constexpr std::chrono::milliseconds slice{100};
   constexpr std::chrono::seconds longest_wait_when_finished{10};
   const auto begin = steady_clock::now();
-  while (!writer.wait_for_acknowledgments(slice)) {
-    const auto limit =
-        service.stop.requested() ? longest_wait_for_acknowledgments : longest_wait_when_finished;
-    if (steady_clock::now() >= begin + limit) return false;
+  for (const Node::OutputPart& part : outputs) {
+    while (!part.output->wait_for_acknowledgments(slice)) {
+      const auto limit =
+          service.stop.requested() ? longest_wait_for_acknowledgments : longest_wait_when_finished;
+      if (steady_clock::now() >= begin + limit) return false;
+    }
   }
   return true;
 }
 
-int publish_all(Service& service, const std::function<void(Source&)>& body) {
-  Writer<msg::Scan> writer(service.participant,
-                           output_topic(service.deployment, service.config),
-                           output_qos(service.config));
-  service.heartbeat.set_endpoint_report([&writer](msg::ServiceStatus& status) {
-    status.matched_outputs(static_cast<std::uint32_t>(writer.matched()));
-    status.incompatible_qos(writer.incompatible_qos());
-  });
-  ControlServer control(service, [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
-    if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
-      throw std::invalid_argument("kind " + service.config.kind +
-                                  " has no methods; change its parameters in the deployment file "
-                                  "and apply that (quoin apply)");
+Outputs make_outputs(Service& service, const KindInfo& kind, const PortTypes& types) {
+  Outputs outputs;
+  for (std::size_t i = 0; i < kind.outputs.size(); ++i) {
+    const OutputConfig& output = service.config.outputs[i];
+    const TopicQos qos = output_qos(service.config, output);
+    service.record.add_output(output.topic);
+    outputs.push_back({kind.outputs[i], output.topic, qos.preset == QosPreset::lossless,
+                       types.outputs[i](service.participant, output.topic, qos)});
+  }
+  return outputs;
+}
+
+void report_endpoints(const Outputs& outputs, msg::ServiceStatus& status) {
+  std::vector<std::string> mismatches;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    status.outputs()[i].readers(static_cast<std::uint32_t>(outputs[i].output->matched()));
+    for (std::string& text : outputs[i].output->incompatible_qos()) {
+      mismatches.push_back(std::move(text));
     }
-    reply.accepted(true);
-  });
-  service.succession.on_request([&service] {
-    if (service.succession.leaves(std::numeric_limits<std::uint64_t>::max())) {
-      service.stop.request();
-    }
+  }
+  status.incompatible_qos(std::move(mismatches));
+}
+
+int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
+                const std::function<void(Source&)>& body) {
+  Outputs outputs = make_outputs(service, kind, types);
+  Succession succession(service.held);
+  service.record.set_endpoint_report(
+      [&outputs](msg::ServiceStatus& status) { report_endpoints(outputs, status); });
+  ControlServer control(service, succession,
+                        [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
+                          if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
+                            throw std::invalid_argument(
+                                "kind " + service.config.kind +
+                                " has no methods; change its parameters in the deployment file "
+                                "and apply that (quoin apply)");
+                          }
+                          reply.accepted(true);
+                        });
+  succession.on_request([&] {
+    if (succession.asked()) service.stop.request();
   });
   int exit_code = exit_ok;
   std::uint64_t next = 0;
   msg::ServiceState state = msg::ServiceState::STATE_STOPPED;
   std::string detail;
-  if (const auto first = wait_for_begin(service, writer)) {
-    service.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
-    PublishingSource source(service, writer, *first);
+  if (const auto first = wait_for_begin(service, outputs, succession)) {
+    service.record.set_state(msg::ServiceState::STATE_ACTIVE);
+    PublishingSource source(service, outputs, *first);
     try {
       body(source);
       if (!service.stop.requested()) state = msg::ServiceState::STATE_FINISHED;
@@ -126,26 +178,27 @@ int publish_all(Service& service, const std::function<void(Source&)>& body) {
     next = source.next_sequence();
   }
   service.heartbeat.stopping();
-  if (!all_is_acknowledged(service, writer)) {
+  if (!all_is_acknowledged(service, outputs)) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
-  service.succession.on_request(nullptr);
-  service.succession.left(next);
+  succession.on_request(nullptr);
+  succession.left({{"", next}}, {});
   service.heartbeat.finish(state, detail);
-  service.heartbeat.set_endpoint_report(nullptr);
+  service.record.set_endpoint_report(nullptr);
   return exit_code;
 }
 
 }  // namespace
 
-int run_source(int argc, char** argv, const std::string& kind, const SourceFactory& open) {
+int run_source(int argc, char** argv, const KindInfo& kind, const SourceFactory& open,
+               const PortTypes& types) {
   std::function<void(Source&)> body;
   return run_service(
       argc, argv, kind,
       [&](const Deployment& deployment, const ServiceConfig& config) {
         body = open_body(open, deployment, config);
       },
-      [&](Service& service) { return publish_all(service, body); });
+      [&](Service& service) { return publish_all(service, kind, types, body); });
 }
 
 }  // namespace quoin::runtime

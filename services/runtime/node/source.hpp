@@ -8,8 +8,10 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <typeinfo>
 
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/node/dds_ports.hpp"
 #include "services/runtime/process/activity.hpp"
 
 namespace quoin::runtime {
@@ -28,6 +30,17 @@ class Source : public Activity {
   /// Publishes a scan whose header.stamp and header.frame are set; the rest of the header is filled
   /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.
   virtual bool publish(msg::Scan& scan) = 0;
+
+  /// Publishes a message of another output of the kind, at its own rate, with its stamp and frame.
+  template <class T>
+  bool publish_also(T& message) {
+    return publish_own(typeid(T), &message, message.header());
+  }
+
+ protected:
+  virtual bool publish_own(const std::type_info&, void*, msg::Header&) {
+    throw std::logic_error("a source with one output");
+  }
 };
 
 using SourceFactory = BodyFactory<Source>;
@@ -37,6 +50,8 @@ using SourceFactory = BodyFactory<Source>;
 /// has published everything, or when `publish` or `wait_until` says false.
 /// Returns the exit code: 0 finished or stopped, 2 wrong configuration, 3 SourceError, 1 anything
 /// else.
-int run_source(int argc, char** argv, const std::string& kind, const SourceFactory& open);
+/// `types`: of the kind's outputs, the scans first.
+int run_source(int argc, char** argv, const KindInfo& kind, const SourceFactory& open,
+               const PortTypes& types = port_types(Reads<>(), Writes<msg::Scan>()));
 
 }  // namespace quoin::runtime

@@ -7,17 +7,25 @@
 #include <cstdint>
 #include <functional>
 #include <idl/Control.h>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string>
+
+#include "services/runtime/node/method.hpp"
 
 namespace quoin::runtime {
 
-/// How the work of a service goes from one process to the next without a scan lost or doubled.
+/// By port, a sequence number. The scans that a source makes have the port "".
+using Positions = std::map<std::string, std::uint64_t>;
+
+/// How the work of a service goes from one process to the next without a message lost or doubled.
 ///
 /// The successor is started held: it reads but does not publish. Asked to hold, it keeps the newest
-/// scan and all that follow. Then the predecessor is asked to hand over: it handles the scans
-/// before the ones kept, makes sure that its results have arrived, and names the first scan that it
-/// leaves. From that one on the successor publishes.
+/// message of each `each` port and all that follow. Then the predecessor is asked to hand over: it
+/// handles the messages before the ones kept, makes sure that its results have arrived, and names
+/// the first message of each port that it leaves, with the state of its method. From those on the
+/// successor publishes.
 class Succession {
  public:
   explicit Succession(bool held) : held_(held) {}
@@ -32,33 +40,43 @@ class Succession {
   /// callback back. Must not call back here.
   void on_request(std::function<void()> callback);
 
-  /// Successor: takes note of a scan that was received; false when the ones before it are not
-  /// needed.
-  [[nodiscard]] bool keep(std::uint64_t sequence_number);
-  /// Successor: the first scan to handle, once it is to begin.
-  [[nodiscard]] std::optional<std::uint64_t> begin();
+  /// Successor: takes note of a message that was received; false when the ones of this port before
+  /// it are not needed.
+  [[nodiscard]] bool keep(const std::string& port, std::uint64_t sequence_number);
+  /// What to begin with.
+  struct Begin {
+    Positions positions;  ///< a port that is not there begins with whatever comes
+    State state;          ///< of the predecessor; empty when it gave none
+  };
+  /// Successor: nothing until it is to begin.
+  [[nodiscard]] std::optional<Begin> begin();
 
-  /// Predecessor: whether scan `sequence_number` and those behind it are left to the successor.
-  [[nodiscard]] bool leaves(std::uint64_t sequence_number) const {
-    return asked_.load(std::memory_order_acquire) && sequence_number >= leave_from_;
-  }
-  /// Predecessor: everything before `next` has been handled and has arrived, nothing more will.
-  void left(std::uint64_t next);
+  /// Predecessor: whether it was asked to leave.
+  [[nodiscard]] bool asked() const { return asked_.load(std::memory_order_acquire); }
+  /// Predecessor: whether that message and those behind it are left to the successor.
+  [[nodiscard]] bool leaves(const std::string& port, std::uint64_t sequence_number) const;
+  /// Predecessor: everything before these positions has been handled and has arrived, nothing more
+  /// will.
+  void left(const Positions& next, State state);
 
  private:
-  void hand_over(std::uint64_t from, msg::ControlReply& reply);
+  void hand_over(const msg::ControlRequest& request, msg::ControlReply& reply);
 
+  struct Kept {
+    std::uint32_t count = 0;
+    std::uint64_t first = 0;
+  };
   std::atomic<bool> held_;
   std::atomic<bool> asked_{false};
-  std::atomic<std::uint64_t> leave_from_{0};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> callback_;
   bool keeping_ = false;
-  std::uint32_t kept_ = 0;
-  std::uint64_t first_kept_ = 0;
-  std::optional<std::uint64_t> begin_;
-  std::optional<std::uint64_t> next_;
+  std::map<std::string, Kept> kept_;  // by port
+  Positions leave_from_;
+  std::optional<Begin> begin_;
+  std::optional<Positions> next_;
+  State state_;
 };
 
 }  // namespace quoin::runtime

@@ -6,7 +6,7 @@
 
 namespace quoin::runtime {
 
-int run_activity(int argc, char** argv, const std::string& kind, const ActivityFactory& open) {
+int run_activity(int argc, char** argv, const KindInfo& kind, const ActivityFactory& open) {
   std::function<void(Activity&)> body;
   return run_service(
       argc, argv, kind,
@@ -14,7 +14,7 @@ int run_activity(int argc, char** argv, const std::string& kind, const ActivityF
         body = open_body(open, deployment, config);
       },
       [&](Service& service) {
-        service.heartbeat.set_state(msg::ServiceState::STATE_ACTIVE);
+        service.record.set_state(msg::ServiceState::STATE_ACTIVE);
         ServiceActivity<Activity> activity(service);
         body(activity);
         service.heartbeat.finish(service.stop.requested() ? msg::ServiceState::STATE_STOPPED

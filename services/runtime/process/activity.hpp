@@ -41,6 +41,6 @@ using ActivityFactory = BodyFactory<Activity>;
 /// The main function of a service without topics of data: command line, deployment file,
 /// participant, heartbeat, orderly end. The body returns when it is done, or when `wait_until` says
 /// false. Returns the exit code: 0 done or stopped, 2 wrong configuration, 1 anything else.
-int run_activity(int argc, char** argv, const std::string& kind, const ActivityFactory& open);
+int run_activity(int argc, char** argv, const KindInfo& kind, const ActivityFactory& open);
 
 }  // namespace quoin::runtime

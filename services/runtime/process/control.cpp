@@ -16,10 +16,13 @@ constexpr int most_accepted_a_second = 400;  // more than anybody can ask one af
 constexpr int most_refusals_a_second = 50;
 constexpr std::size_t longest_text = 4096;  // a path is the longest that a request may carry
 constexpr std::size_t most_parameters = 64;
+constexpr std::size_t most_positions = 64;
+constexpr std::size_t largest_state = 64U << 20U;  // [byte]
 
 bool oversized(const msg::ControlRequest& request) {
   return request.requester().size() > longest_text || request.method().size() > longest_text ||
          request.file().size() > longest_text || request.parameters().size() > most_parameters ||
+         request.positions().size() > most_positions || request.state().size() > largest_state ||
          std::any_of(request.parameters().begin(), request.parameters().end(),
                      [](const msg::ParameterSetting& setting) {
                        return setting.name().size() > longest_text ||
@@ -37,8 +40,9 @@ msg::ControlReply reply_to(const msg::ControlRequest& request) {
 
 }  // namespace
 
-ControlServer::ControlServer(Service& service, Handler handler)
+ControlServer::ControlServer(Service& service, Succession& succession, Handler handler)
     : service_(service),
+      succession_(succession),
       handler_(std::move(handler)),
       writer_(service.participant, control_reply_topic(service.deployment.name_space),
               QosPreset::control),
@@ -64,8 +68,8 @@ ControlServer::~ControlServer() {
 
 // Two processes have the same name while one takes over from the other.
 bool ControlServer::for_this_process(const msg::ControlRequest& request) const {
-  return request.incarnation() == 0 ? !service_.succession.held()
-                                    : request.incarnation() == service_.heartbeat.incarnation();
+  return request.incarnation() == 0 ? !succession_.held()
+                                    : request.incarnation() == service_.record.incarnation();
 }
 
 void ControlServer::receive() {
@@ -117,7 +121,7 @@ void ControlServer::begin_second() {
 void ControlServer::refuse(const msg::ControlRequest& request, const std::string& why) {
   begin_second();
   if (++refusals_ > most_refusals_a_second) {
-    service_.heartbeat.count_control_drop();
+    service_.record.count_control_drop();
     return;
   }
   if (refusals_ == 1) spdlog::warn("control requests refused: {}", why);
@@ -158,7 +162,7 @@ void ControlServer::handle(const msg::ControlRequest& request) {
 }
 
 void ControlServer::carry_out(const msg::ControlRequest& request, msg::ControlReply& reply) {
-  if (service_.succession.handle(request, reply)) {
+  if (succession_.handle(request, reply)) {
     reply.accepted(true);
   } else if (request.action() == msg::ControlAction::CONTROL_STOP) {
     service_.stop.request();

@@ -27,7 +27,7 @@ class ControlServer {
   /// first_sequence_number of the reply, or throws.
   using Handler = std::function<void(const msg::ControlRequest&, msg::ControlReply&)>;
 
-  ControlServer(Service& service, Handler handler);
+  ControlServer(Service& service, Succession& succession, Handler handler);
   ~ControlServer();
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
@@ -46,6 +46,7 @@ class ControlServer {
   void answer(const msg::ControlReply& reply);
 
   Service& service_;
+  Succession& succession_;
   Handler handler_;
   std::mutex write_mutex_;
   Writer<msg::ControlReply> writer_;

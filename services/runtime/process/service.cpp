@@ -16,8 +16,8 @@ namespace quoin::runtime {
 
 namespace {
 
-const ServiceConfig& find_service(const Deployment& deployment,
-                                          const std::string& name, const std::string& kind) {
+const ServiceConfig& find_service(const Deployment& deployment, const std::string& name,
+                                  const std::string& kind) {
   std::vector<std::string> candidates;
   for (const ServiceConfig& service : deployment.services) {
     if (service.kind != kind) continue;
@@ -37,41 +37,57 @@ double default_patience(const Deployment& deployment) {
 }  // namespace
 
 Service::Service(StopSignal& stop_signal, const Deployment& deployment_file,
-                 const ServiceConfig& service_config, std::size_t readers,
-                 std::chrono::duration<double> patience_with_readers, bool held)
+                 const ServiceConfig& service_config, std::size_t observers,
+                 std::chrono::duration<double> patience_with_readers, bool to_take_over)
     : stop(stop_signal),
       deployment(deployment_file),
       config(service_config),
+      graph(deployment),
       participant(participant_config(deployment, label(config))),
-      heartbeat(participant, deployment, config),
-      expected_readers(readers),
+      record(config),
+      heartbeat(participant, deployment.name_space, record),
+      expected_readers(graph.expected_readers(config) + observers),
       patience(patience_with_readers),
-      succession(held) {}
+      held(to_take_over) {}
 
-bool Service::wait_for_readers(const WriterBase& writer) {
+bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
+                               const Succession& succession) {
   using std::chrono::milliseconds;
   using std::chrono::steady_clock;
-  if (expected_readers == 0) return !stop.requested();
-  heartbeat.set_state(msg::ServiceState::STATE_STARTING,
-                      "waiting for " + std::to_string(expected_readers) + " readers");
+  const auto matched = [&] {
+    std::size_t sum = 0;
+    for (const Output* output : outputs) sum += output->matched();
+    return sum;
+  };
+  const auto observers = [&] {
+    std::vector<std::string> all;
+    for (const Output* output : outputs) {
+      for (std::string& name : output->awaited_observers()) all.push_back(std::move(name));
+    }
+    return all;
+  };
+  if (outputs.empty()) return !stop.requested();
+  record.set_state(msg::ServiceState::STATE_STARTING,
+                   "waiting for " + std::to_string(expected_readers) + " readers");
   const auto deadline =
       steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(patience);
-  while (!writer.wait_for_readers(expected_readers, milliseconds(20))) {
-    if (stop.requested()) return false;
+  while (matched() < expected_readers || !observers().empty()) {
+    if (!stop.wait_until(steady_clock::now() + milliseconds(5))) return false;
     if (!succession.held() && steady_clock::now() > deadline) {
-      spdlog::warn("only {} of {} readers are there after {} s; going on without the others",
-                   writer.matched(), expected_readers, patience.count());
+      std::string names;
+      for (const std::string& name : observers()) names += ", without " + name;
+      spdlog::warn("only {} of {} readers are there after {} s{}; going on without the others",
+                   matched(), expected_readers, patience.count(), names);
       break;
     }
   }
   return !stop.requested();
 }
 
-int run_service(
-    int argc, char** argv, const std::string& kind,
-    const std::function<void(const Deployment&, const ServiceConfig&)>& check,
-    const std::function<int(Service&)>& run) {
-  CLI::App app{"Quoin service of kind " + kind + ", as described in a deployment file"};
+int run_service(int argc, char** argv, const KindInfo& kind,
+                const std::function<void(const Deployment&, const ServiceConfig&)>& check,
+                const std::function<int(Service&)>& run) {
+  CLI::App app{"Quoin service of kind " + kind.name + ", as described in a deployment file"};
   std::string deployment_file;
   std::string service_name;
   std::string deployment_name;
@@ -103,10 +119,10 @@ int run_service(
     StopSignal stop;
     if (deployment_name.empty()) deployment_name = deployment_file;
     const Deployment deployment =
-        parse_deployment(read_deployment(deployment_file), deployment_name);
-    const ServiceConfig& config = find_service(deployment, service_name, kind);
+        parse_deployment(read_deployment(deployment_file), deployment_name, {{&kind}, false});
+    const ServiceConfig& config = find_service(deployment, service_name, kind.name);
     check(deployment, config);
-    Service service(stop, deployment, config, deployment.readers_of(config.name).size() + observers,
+    Service service(stop, deployment, config, observers,
                     std::chrono::duration<double>(patience.value_or(default_patience(deployment))),
                     held);
     return run(service);

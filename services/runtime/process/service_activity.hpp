@@ -29,16 +29,16 @@ class ServiceActivity : public Base {
 
   void warn(const std::string& text) override {
     spdlog::warn("{}", text);
-    service_.heartbeat.set_detail(text);
+    service_.record.set_detail(text);
   }
 
   void settle(const std::string& text) override {
     spdlog::info("{}", text);
-    service_.heartbeat.set_detail("");
+    service_.record.set_detail("");
   }
 
   void set_diagnostic(const std::string& name, const std::string& value) override {
-    service_.heartbeat.set_diagnostic(name, value);
+    service_.record.set_diagnostic(name, value);
   }
 
  protected:

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/diagnostics/host_checks.hpp"
 #include "deploy/diagnostics/network_checks.hpp"
 #include "deploy/diagnostics/shared_memory.hpp"
@@ -141,7 +141,7 @@ TEST(DoctorHost, MeasuresTheRoomOnDisks) {
 }
 
 TEST_F(Doctor, MissesPrograms) {
-  for (const KindInfo& kind : kinds()) {
+  for (const KindInfo& kind : deploy::kinds()) {
     fs::permissions(write(kind.program, ""), fs::perms::owner_all);
   }
   EXPECT_THAT(check_programs(folder_), is(Verdict::good, "", ""));

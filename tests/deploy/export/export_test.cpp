@@ -14,6 +14,7 @@
 #include "deploy/export/systemd_text.hpp"
 #include "deploy/export/visibility.hpp"
 #include "tests/temporary_folder.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -41,7 +42,7 @@ services:
 
 Deployment deployment(const std::string& text = robot,
                       const std::string& file = "/etc/quoin/robot.yaml") {
-  return parse_deployment(text, file);
+  return deploy::parse_deployment(text, file);
 }
 
 std::string text_of(const std::vector<UnitFile>& units, const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/orchestration/plan.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 #include <gmock/gmock.h>
 
@@ -20,7 +21,7 @@ constexpr auto lines = "  - {name: lines, kind: line_fitting, input: walls, meth
 
 Deployment deployment(const std::string& services, const std::string& head = "",
                       const std::string& file = "/robots/robot.yaml") {
-  return parse_deployment("version: 1\n" + head + "services:\n" + services, file);
+  return deploy::parse_deployment("version: 1\n" + head + "services:\n" + services, file);
 }
 
 std::vector<std::string> plan(const Deployment& running, const Deployment& wanted) {

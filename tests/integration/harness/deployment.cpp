@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/harness/deployment.hpp"
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 
 namespace quoin::tests {
@@ -11,7 +11,7 @@ TestDeployment::TestDeployment(const std::string& services, const std::string& h
     : head_("version: 1\nnamespace: " + test_namespace() +
             "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
       file_(write("deployment.yaml", services)),
-      deployment_(load_deployment(file_)) {}
+      deployment_(deploy::load_deployment(file_)) {}
 
 std::filesystem::path TestDeployment::write(const std::string& name,
                                             const std::string& services) const {
@@ -19,7 +19,7 @@ std::filesystem::path TestDeployment::write(const std::string& name,
 }
 
 Process TestDeployment::start(const std::string& service, int observers) const {
-  const KindInfo* kind = find_kind(deployment_.service(service).kind);
+  const KindInfo* kind = deploy::find_kind(deployment_.service(service).kind);
   return Process(kind->program,
                  {"--deployment", file_.string(), "--service", service, "--observers",
                   std::to_string(observers)},

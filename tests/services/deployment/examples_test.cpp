@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "services/deployment/deployment.hpp"
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {
@@ -23,12 +23,12 @@ std::vector<std::filesystem::path> examples() {
 class Examples : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(Examples, AreValidAndEndInCorners) {
-  const Deployment deployment = load_deployment(GetParam());
+  const Deployment deployment = deploy::load_deployment(GetParam());
   ASSERT_FALSE(deployment.services.empty());
-  EXPECT_EQ(find_kind(deployment.services.front().kind)->input, MessageType::none);
-  EXPECT_EQ(find_kind(deployment.services.back().kind)->output, MessageType::corners);
+  EXPECT_EQ(deploy::find_kind(deployment.services.front().kind)->input, MessageType::none);
+  EXPECT_EQ(deploy::find_kind(deployment.services.back().kind)->output, MessageType::corners);
   for (const ServiceConfig& service : deployment.services) {
-    const MessageType output = find_kind(service.kind)->output;
+    const MessageType output = deploy::find_kind(service.kind)->output;
     if (output != MessageType::none && deployment.readers_of(service.name).empty()) {
       EXPECT_EQ(service.kind, "corner_estimation") << service.name << " is read by nobody";
     }

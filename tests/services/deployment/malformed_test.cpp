@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "services/deployment/deployment.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {
@@ -40,7 +41,7 @@ TEST_P(Malformed, IsReportedWithPlaceAndWayOut) {
   ::unsetenv("QUOIN_UNSET_FOR_TESTS");
   const std::string expected = content(fs::path(GetParam()).replace_extension(".expected"));
   try {
-    (void)parse_deployment(content(GetParam()), GetParam().filename());
+    (void)deploy::parse_deployment(content(GetParam()), GetParam().filename());
     FAIL() << "accepted";
   } catch (const DeploymentError& error) {
     EXPECT_EQ(std::string(error.what()) + "\n", expected);
@@ -53,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Deploy, Malformed, testing::ValuesIn(yaml_files(QUOIN_M
 // Whatever is in the file: a deployment or a DeploymentError, nothing else.
 void read_or_reject(const std::string& text) {
   try {
-    (void)parse_deployment(text, "damaged.yaml");
+    (void)deploy::parse_deployment(text, "damaged.yaml");
   } catch (const DeploymentError& error) {
     ASSERT_FALSE(error.messages().empty());
     // yaml-cpp must not be led into using up the memory.
@@ -104,7 +105,7 @@ TEST(Damaged, ManyErrorsAreCutShort) {
   std::string text = "version: 1\nservices:\n";
   for (int i = 0; i < 200; ++i) text += "  - {name: S, kind: k}\n";
   try {
-    (void)parse_deployment(text, "many.yaml");
+    (void)deploy::parse_deployment(text, "many.yaml");
     FAIL() << "accepted";
   } catch (const DeploymentError& error) {
     EXPECT_EQ(error.messages().size(), 51U);

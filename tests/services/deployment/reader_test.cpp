@@ -9,6 +9,7 @@
 
 #include "services/deployment/deployment.hpp"
 #include "tests/temporary_folder.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {
@@ -32,7 +33,7 @@ services:
 )";
 
 TEST(Reader, FillsInDefaults) {
-  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
   EXPECT_EQ(deployment.file, "robot.yaml");
   EXPECT_EQ(deployment.name_space, "quoin");
   EXPECT_EQ(deployment.domain, 0);
@@ -50,7 +51,7 @@ TEST(Reader, FillsInDefaults) {
 }
 
 TEST(Reader, ReadsWhereServicesRunAndHowTheyMeet) {
-  const Deployment deployment = parse_deployment(R"(
+  const Deployment deployment = deploy::parse_deployment(R"(
 version: 1
 network:
   interfaces: [eth0, 10.7.0.0/24]
@@ -78,18 +79,18 @@ TEST(Reader, ReadsWhereTheKeysAre) {
       "security: {keys: keys, encrypt: false}\n"
       "services:\n"
       "  - {name: front, kind: simulated}\n";
-  const Deployment deployment = parse_deployment(text, "/etc/robot.yaml");
+  const Deployment deployment = deploy::parse_deployment(text, "/etc/robot.yaml");
   ASSERT_TRUE(deployment.security.has_value());
   EXPECT_EQ(deployment.security->directory, "/etc/keys");
   EXPECT_FALSE(deployment.security->encrypt);
   // However the file is named: what runs is compared with what is applied.
-  const Deployment relative = parse_deployment(text, "robot.yaml");
+  const Deployment relative = deploy::parse_deployment(text, "robot.yaml");
   EXPECT_EQ(relative.security->directory, std::filesystem::current_path() / "keys");
 }
 
 TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
   const auto discovery = [](const std::string& network) {
-    return parse_deployment(
+    return deploy::parse_deployment(
                "version: 1\n" + network + "services:\n  - {name: front, kind: simulated}\n",
                "robot.yaml")
         .network.discovery;
@@ -103,7 +104,7 @@ TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
 TEST(Reader, KeepsParticipantsLongerOnANetworkUnlessTold) {
   EXPECT_EQ(parse_network({}).lease, loopback_lease);
   EXPECT_EQ(parse_network({{"eth0"}, "", {}, {}}).lease, network_lease);
-  const Deployment told = parse_deployment(
+  const Deployment told = deploy::parse_deployment(
       "version: 1\nnetwork: {interfaces: eth0, lease: 500 ms}\n"
       "services:\n  - {name: front, kind: simulated}\n",
       "robot.yaml");
@@ -126,8 +127,8 @@ TEST(Reader, ReadsANetworkThatNoFileDescribes) {
 }
 
 TEST(Reader, TellsTheHostsThatServicesName) {
-  EXPECT_THAT(hosts_of(parse_deployment(chain, "robot.yaml")), testing::IsEmpty());
-  EXPECT_THAT(hosts_of(parse_deployment(R"(
+  EXPECT_THAT(hosts_of(deploy::parse_deployment(chain, "robot.yaml")), testing::IsEmpty());
+  EXPECT_THAT(hosts_of(deploy::parse_deployment(R"(
 version: 1
 services:
   - {name: front, kind: simulated, host: lidar}
@@ -139,12 +140,12 @@ services:
 }
 
 TEST(Reader, PutsInputsFirstAndElseKeepsTheOrder) {
-  EXPECT_THAT(names_of(parse_deployment(chain, "robot.yaml")),
+  EXPECT_THAT(names_of(deploy::parse_deployment(chain, "robot.yaml")),
               ElementsAre("front", "walls", "lines", "corners", "rear"));
 }
 
 TEST(Reader, ReadsEverythingThatCanBeWritten) {
-  const Deployment deployment = parse_deployment(R"(
+  const Deployment deployment = deploy::parse_deployment(R"(
 version: 1
 namespace: fleet/robot_1
 domain: 232
@@ -176,14 +177,14 @@ services:
 }
 
 TEST(Reader, ThePresetForAllMayBeWrittenLast) {
-  const Deployment deployment = parse_deployment(
+  const Deployment deployment = deploy::parse_deployment(
       "version: 1\nservices:\n  - {name: front, kind: simulated}\nqos: lossless\n", "robot.yaml");
   EXPECT_EQ(deployment.service("front").qos, "lossless");
 }
 
 TEST(Reader, ReplacesEnvironmentVariablesInParameters) {
   ::setenv("QUOIN_TEST_FOLDER", "/data", 1);
-  const Deployment deployment = parse_deployment(
+  const Deployment deployment = deploy::parse_deployment(
       "version: 1\nservices:\n"
       "  - {name: log, kind: replay, parameters: {path: \"${QUOIN_TEST_FOLDER}/a\", frame: "
       "\"${QUOIN_NONE:-f}\"}}\n",
@@ -194,7 +195,7 @@ TEST(Reader, ReplacesEnvironmentVariablesInParameters) {
 }
 
 TEST(Reader, ChecksValuesFromTheEnvironmentToo) {
-  EXPECT_THROW((void)parse_deployment(
+  EXPECT_THROW((void)deploy::parse_deployment(
                    "version: 1\nservices:\n"
                    "  - {name: log, kind: replay, parameters: {rate_hz: \"${QUOIN_NONE:-x}\"}}\n",
                    "robot.yaml"),
@@ -206,11 +207,11 @@ TEST(Reader, ReadsFilesWithWindowsLineEnds) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2)) {
     text.insert(at, 1, '\r');
   }
-  EXPECT_EQ(parse_deployment(text, "robot.yaml").services.size(), 5U);
+  EXPECT_EQ(deploy::parse_deployment(text, "robot.yaml").services.size(), 5U);
 }
 
 TEST(Deployment, FindsServicesAndReaders) {
-  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
   EXPECT_THAT(deployment.readers_of("walls"), ElementsAre(&deployment.service("lines")));
   EXPECT_THAT(deployment.readers_of("corners"), testing::IsEmpty());
   try {
@@ -222,7 +223,7 @@ TEST(Deployment, FindsServicesAndReaders) {
 }
 
 TEST(Deployment, NamesTopics) {
-  const Deployment deployment = parse_deployment(chain, "robot.yaml");
+  const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
   EXPECT_EQ(output_topic(deployment, deployment.service("front")), "quoin/front/scan");
   EXPECT_EQ(output_topic(deployment, deployment.service("walls")), "quoin/walls/segments");
   EXPECT_EQ(output_topic(deployment, deployment.service("lines")), "quoin/lines/lines");
@@ -236,7 +237,7 @@ class Files : public testing::Test {
  protected:
   std::string error_of(const std::filesystem::path& file) {
     try {
-      (void)load_deployment(file);
+      (void)deploy::load_deployment(file);
     } catch (const DeploymentError& error) {
       return error.what();
     }
@@ -263,8 +264,8 @@ TEST_F(Files, ThatAreTooLargeAreErrors) {
 TEST_F(Files, AreLoaded) {
   const auto file = folder_ / "robot.yaml";
   std::ofstream(file) << chain;
-  EXPECT_EQ(load_deployment(file).services.size(), 5U);
-  EXPECT_EQ(load_deployment(file).file, file);
+  EXPECT_EQ(deploy::load_deployment(file).services.size(), 5U);
+  EXPECT_EQ(deploy::load_deployment(file).file, file);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "services/keys/private_file.hpp"
 #include "services/keys/signed_document.hpp"
 #include "tests/temporary_folder.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {
@@ -74,7 +75,7 @@ class KeyDirectory : public ::testing::Test {
 
   tests::TemporaryFolder folder_;
   std::filesystem::path keys_ = folder_.path() / "keys";
-  Deployment deployment_ = parse_deployment(chain, folder_.path() / "robot.yaml");
+  Deployment deployment_ = deploy::parse_deployment(chain, folder_.path() / "robot.yaml");
 };
 
 TEST_F(KeyDirectory, IdentitiesAreSignedByTheAuthorityAndNamed) {

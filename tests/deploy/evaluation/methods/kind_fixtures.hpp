@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

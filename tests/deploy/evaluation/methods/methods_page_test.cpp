@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/deploy/evaluation/methods/kind_fixtures.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 namespace {
@@ -102,13 +103,13 @@ TEST(MethodsPage, HasFiguresOfFitters) {
 
 TEST(MethodsPage, IsWithoutFiguresWhereNothingWasMeasured) {
   const MeasuredFigures nothing;
-  EXPECT_EQ(methods_page(kinds(), &nothing), methods_page(kinds(), nullptr));
+  EXPECT_EQ(methods_page(deploy::kinds(), &nothing), methods_page(deploy::kinds(), nullptr));
 }
 
 TEST(MethodsPage, FiguresAreAddedToThePageWithout) {
   const MeasuredFigures measured = figures();
-  const std::string page = methods_page(kinds(), &measured);
-  std::string plain = methods_page(kinds(), nullptr);
+  const std::string page = methods_page(deploy::kinds(), &measured);
+  std::string plain = methods_page(deploy::kinds(), nullptr);
   EXPECT_GT(page.size(), plain.size());
   for (std::size_t end = 0; (end = plain.find("\n\n")) != std::string::npos;) {
     EXPECT_THAT(page, HasSubstr(plain.substr(0, end + 1)));

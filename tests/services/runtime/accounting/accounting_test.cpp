@@ -91,8 +91,8 @@ TEST(ScanAccounting, NamesTheStageThatDidNotDeliver) {
     EXPECT_EQ(loss.first_sequence, 1U);
     EXPECT_EQ(loss.last_sequence, 4U);
   }
-  EXPECT_THAT(accounting.lost_by_stage(),
-              UnorderedElementsAre(Pair("walls", 1), Pair("wctls", 2), Pair("link", 1)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1), Pair(LossSite{LossPlace::service, "wctls"}, 2), Pair(LossSite{LossPlace::link}, 1)));
   EXPECT_EQ(accounting.lost(), 4U);
 }
 
@@ -102,7 +102,7 @@ TEST(ScanAccounting, ScansTheSourceCouldNotWriteAreItsOwnLoss) {
   accounting.receive(pipeline.scan());
   (void)pipeline.scan(0);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("front", 1)));
+  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "front"}, 1)));
 }
 
 TEST(ScanAccounting, ARestartedStageAnswersForTheScansInBetween) {
@@ -112,7 +112,7 @@ TEST(ScanAccounting, ARestartedStageAnswersForTheScansInBetween) {
   for (int i = 0; i < 5; ++i) (void)pipeline.scan(1);
   pipeline.restart(1);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("walls", 5)));
+  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 5)));
 }
 
 TEST(ScanAccounting, WhatALaterStageMadeTheRestartedOneMustHaveMadeToo) {
@@ -123,7 +123,7 @@ TEST(ScanAccounting, WhatALaterStageMadeTheRestartedOneMustHaveMadeToo) {
   (void)pipeline.scan(1);
   pipeline.restart(1);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_stage(), UnorderedElementsAre(Pair("walls", 1), Pair("link", 1)));
+  EXPECT_THAT(accounting.lost_by_site(), UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1), Pair(LossSite{LossPlace::link}, 1)));
 }
 
 TEST(ScanAccounting, ARestartedSourceStartsAnew) {
@@ -134,7 +134,7 @@ TEST(ScanAccounting, ARestartedSourceStartsAnew) {
   (void)pipeline.scan(1);
   const auto losses = accounting.receive(pipeline.scan());
   ASSERT_EQ(losses.size(), 1U);
-  EXPECT_EQ(losses[0].stage, "walls");
+  EXPECT_EQ(losses[0].site, (LossSite{LossPlace::service, "walls"}));
   EXPECT_EQ(losses[0].first_sequence, 0U);
   EXPECT_EQ(losses[0].last_sequence, 0U);
   EXPECT_EQ(accounting.received(), 21U);
@@ -173,7 +173,7 @@ TEST(ScanAccounting, AnInputThatIsRewiredLosesNothing) {
   EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
   (void)pipeline.scan(2);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("wctls", 1)));
+  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "wctls"}, 1)));
 }
 
 TEST(ScanAccounting, AnotherSensorBeginsAnew) {
@@ -220,7 +220,7 @@ TEST(ScanAccounting, AStandbyThatTakesOverAnswersForTheGapAndNoMore) {
   msg::Header first = by_instance(104, 2, 90);
   first.trace()[2].index(101);
   accounting.receive(first);
-  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("walls", 3)));
+  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 3)));
   // The strong one returns without a gap, but not with its first result.
   msg::Header second = by_instance(105, 1050, 7);
   second.trace()[2].index(102);
@@ -237,7 +237,7 @@ TEST(ScanAccounting, WhatWasLostBehindATakeoverIsNotTheInstances) {
   ScanAccounting accounting;
   accounting.receive(by_instance(100, 1, 100));
   accounting.receive(by_instance(104, 2, 90));  // wctls made results of all three in between
-  EXPECT_THAT(accounting.lost_by_stage(), ElementsAre(Pair("link", 3)));
+  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::link}, 3)));
 }
 
 TEST(ScanAccounting, TheScansOfAnotherSourceAreNotComparedWithThoseBefore) {

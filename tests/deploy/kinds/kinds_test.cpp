@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/deployment/kinds.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 #include <set>
 #include <stdexcept>
@@ -20,7 +20,7 @@ std::vector<std::string> names_of(const std::vector<MethodInfo>& methods) {
 
 TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
-  for (const KindInfo& kind : kinds()) names.push_back(kind.name);
+  for (const KindInfo& kind : deploy::kinds()) names.push_back(kind.name);
   EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator",
                                  "segmentation", "line_fitting", "corner_estimation"));
 }
@@ -28,7 +28,7 @@ TEST(Kinds, AreListedSourcesFirst) {
 TEST(Kinds, FormAChainFromScansToCorners) {
   const auto check = [](const char* name, MessageType input, MessageType output,
                         const char* program, const char* qos) {
-    const KindInfo* kind = find_kind(name);
+    const KindInfo* kind = deploy::find_kind(name);
     ASSERT_NE(kind, nullptr) << name;
     EXPECT_EQ(kind->input, input) << name;
     EXPECT_EQ(kind->output, output) << name;
@@ -47,29 +47,29 @@ TEST(Kinds, FormAChainFromScansToCorners) {
 }
 
 TEST(Kinds, KnowTheMethods) {
-  EXPECT_THAT(names_of(find_kind("segmentation")->methods), testing::Contains("iepf"));
-  EXPECT_THAT(names_of(find_kind("line_fitting")->methods),
+  EXPECT_THAT(names_of(deploy::find_kind("segmentation")->methods), testing::Contains("iepf"));
+  EXPECT_THAT(names_of(deploy::find_kind("line_fitting")->methods),
               testing::IsSupersetOf({"utls", "wtls", "wctls"}));
-  EXPECT_THAT(names_of(find_kind("corner_estimation")->methods), testing::Contains("adjacent"));
-  EXPECT_THAT(find_kind("simulated")->methods, testing::IsEmpty());
+  EXPECT_THAT(names_of(deploy::find_kind("corner_estimation")->methods), testing::Contains("adjacent"));
+  EXPECT_THAT(deploy::find_kind("simulated")->methods, testing::IsEmpty());
 }
 
 TEST(Kinds, UnknownNamesAreNotFound) {
-  EXPECT_EQ(find_kind("lidar"), nullptr);
-  EXPECT_EQ(find_kind(""), nullptr);
+  EXPECT_EQ(deploy::find_kind("lidar"), nullptr);
+  EXPECT_EQ(deploy::find_kind(""), nullptr);
 }
 
 TEST(Kinds, ParametersComeFromTheMethodOrTheKind) {
-  const KindInfo& segmentation = *find_kind("segmentation");
+  const KindInfo& segmentation = *deploy::find_kind("segmentation");
   EXPECT_EQ(&parameters_of(segmentation, "iepf"), &segmentation.methods.front().parameters);
   EXPECT_THROW((void)parameters_of(segmentation, "none"), std::out_of_range);
-  const KindInfo& simulated = *find_kind("simulated");
+  const KindInfo& simulated = *deploy::find_kind("simulated");
   EXPECT_EQ(&parameters_of(simulated, ""), &simulated.parameters);
   EXPECT_FALSE(simulated.parameters.empty());
 }
 
 TEST(Kinds, EveryParameterIsDescribedAndItsDefaultIsValid) {
-  for (const KindInfo& kind : kinds()) {
+  for (const KindInfo& kind : deploy::kinds()) {
     EXPECT_FALSE(kind.description.empty());
     std::vector<std::vector<ParameterInfo>> lists{kind.parameters};
     for (const MethodInfo& method : kind.methods) {

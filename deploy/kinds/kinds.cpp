@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/kinds/kinds.hpp"
+
+#include "sensor_bridge/replay/kind.hpp"
+#include "sensor_bridge/rplidar/emulator_service/kind.hpp"
+#include "sensor_bridge/rplidar/service/kind.hpp"
+#include "sensor_bridge/simulated/kind.hpp"
+#include "services/corner_estimation/kind.hpp"
+#include "services/line_fitting/kind.hpp"
+#include "services/segmentation/kind.hpp"
+
+namespace quoin::deploy {
+
+// A new kind is one line here.
+const KindList& kinds() {
+  static const KindList all{{&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
+                             &sensor_bridge::rplidar::rplidar_kind(),
+                             &sensor_bridge::rplidar::rplidar_emulator_kind(), &segmentation_kind(),
+                             &line_fitting_kind(), &corner_estimation_kind(), &external_kind()}};
+  return all;
+}
+
+}  // namespace quoin::deploy

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <idl/Corners.h>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/statistics/quantile_histogram.hpp"
+#include "deploy/observation/figures.hpp"
+#include "services/deployment/graph.hpp"
+#include "services/runtime/accounting/accounting.hpp"
+#include "services/runtime/accounting/source_ledger.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/reader.hpp"
+#include "services/topics/cdr_codec.hpp"
+
+namespace quoin::deploy {
+
+/// An instance of what numbers messages: a source, or an output at its own rate.
+struct SourceInstance {
+  std::string label;
+  std::string service;
+  std::string type;  ///< of the numbered messages
+  runtime::SourceLedger ledger;  ///< has learned from all watches
+};
+
+/// The corners that an output has given, as far as one looks at them.
+class CornerStatistics {
+ public:
+  void add(const msg::Corners& message);
+  [[nodiscard]] CornerFigures figures(std::uint64_t scans) const;
+
+ private:
+  std::uint64_t corners_ = 0;
+  QuantileHistogram sigma_;
+  QuantileHistogram ellipse_area_;
+};
+
+/// Takes what comes out of an output that no service reads, whatever its type, and accounts for each
+/// message of its source.
+class EndWatch {
+ public:
+  /// `name`: what its figures are called. `joined_late`: the deployment ran before, the scans so far
+  /// are for nobody. Throws std::runtime_error when DDS refuses.
+  EndWatch(runtime::Participant& participant, const Connection& end, std::string name,
+           bool joined_late);
+
+  [[nodiscard]] const std::string& service() const { return service_; }
+  [[nodiscard]] const std::string& type() const { return type_; }
+  [[nodiscard]] runtime::ReaderBase& reader() { return reader_; }
+  /// The way of its messages, from the output that numbers them on.
+  void set_path(const std::vector<Connection>& path);
+  /// Of the messages of that output.
+  [[nodiscard]] const std::string& source_type() const { return source_type_; }
+  /// The topic that a service of that way writes; "" of another service.
+  [[nodiscard]] std::string topic_of(const std::string& service) const;
+  /// Of the last message: the source's part.
+  [[nodiscard]] const msg::StageTrace& source_trace() const { return source_trace_; }
+
+  /// Takes all that has come; `on_message` gets the header of each new one. False when there was
+  /// nothing.
+  bool take_all(const std::function<void(const msg::Header&)>& on_message);
+
+  /// It is no part of the deployment. Should it come back, what happens meanwhile is for nobody.
+  void interrupt();
+  [[nodiscard]] bool heard_nothing() const { return accounting_.received() == 0; }
+  /// The source has ended: what has not come will not.
+  void end() { ended_ = true; }
+  [[nodiscard]] const std::vector<runtime::SourceAccount>& sources() const {
+    return accounting_.sources();
+  }
+
+  /// `instances`: of all sources.
+  [[nodiscard]] EndFigures figures(const std::vector<SourceInstance>& instances) const;
+
+ private:
+  void add(const msg::Header& header);
+  [[nodiscard]] std::uint64_t lost_at_start(const std::vector<SourceInstance>& instances) const;
+
+  std::string name_;
+  std::string service_;
+  std::string type_;
+  std::string source_;       // service that numbers the messages
+  std::string source_type_;  // of what it numbers
+  std::map<std::string, std::string> topics_;  // by service on the way
+  msg::StageTrace source_trace_;
+  runtime::RawReader reader_;
+  runtime::ScanAccounting accounting_;
+  bool joined_late_;
+  bool ended_ = false;
+  std::uint64_t first_number_ = 0;  // of the first message, unless nobody waited for it
+  QuantileHistogram latency_;
+  bool gives_corners_;
+  CornerStatistics corners_;
+  // Memory is kept from message to message.
+  topics::RawMessage raw_;
+  msg::Header header_;
+  msg::Corners message_;
+};
+
+}  // namespace quoin::deploy

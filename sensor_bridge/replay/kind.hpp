@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sensor_bridge/replay/parameters.hpp"
+#include "services/deployment/kind.hpp"
+
+namespace quoin::sensor_bridge {
+
+[[nodiscard]] inline const KindInfo& replay_kind() {
+  static const KindInfo kind{.name = "replay",
+                             .description = "scans of a recorded file",
+                             .program = "quoin-replay",
+                             .outputs = {{"scan"}},
+                             .parameters = describe_parameters<ReplayParameters>()};
+  return kind;
+}
+
+}  // namespace quoin::sensor_bridge

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/node/delivery.hpp"
+
+#include <string>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "services/runtime/process/clock.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A reader that is only slow makes room sooner.
+constexpr std::chrono::seconds patience_with_readers{2};
+
+/// Says once for whom a lossless writer waits, and takes it back.
+class WaitNotice {
+ public:
+  explicit WaitNotice(ServiceRecord& record) : record_(record) {}
+  ~WaitNotice() {
+    if (!told_.empty()) record_.set_detail("");
+  }
+  WaitNotice(const WaitNotice&) = delete;
+  WaitNotice& operator=(const WaitNotice&) = delete;
+
+  void waiting(const std::vector<std::string>& silent) {
+    if (Clock::now() - begun_ < patience_with_readers) return;
+    std::string text = "waiting for readers that do not take its results";
+    for (std::size_t i = 0; i < silent.size(); ++i) text += (i == 0 ? ": " : ", ") + silent[i];
+    if (text == told_) return;
+    spdlog::warn("{}", text);
+    record_.set_detail(text);
+    told_ = std::move(text);
+  }
+
+ private:
+  ServiceRecord& record_;
+  const Clock::time_point begun_ = Clock::now();
+  std::string told_;
+};
+
+}  // namespace
+
+bool deliver(Output& output, msg::StageTrace& trace, bool lossless, DataThread& thread) {
+  thread.pulse.beat();
+  trace.published(now_ns());
+  if (output.write()) return true;
+  if (!lossless) return false;
+  WaitNotice notice(thread.record);
+  auto deadline = Clock::time_point::max();
+  while (true) {
+    if (thread.stopping()) {
+      const auto now = Clock::now();
+      if (deadline == Clock::time_point::max()) deadline = now + longest_wait_for_room;
+      if (now >= deadline) return false;
+    }
+    notice.waiting(output.check_silent_readers());
+    thread.pulse.beat();
+    trace.published(now_ns());
+    if (output.write()) return true;
+  }
+}
+
+}  // namespace quoin::runtime

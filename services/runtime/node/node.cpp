@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/node/node.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "services/runtime/process/clock.hpp"
+#include "services/topics/header.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+// Messages that a held node keeps between two steps of the succession, which take milliseconds.
+constexpr std::size_t most_kept = 1024;
+// Messages that wait for what is joined to them; more stay with DDS.
+constexpr std::size_t most_waiting = 256;
+
+std::uint64_t number_of(const Message& message) { return topics::sequence_number(*message.header); }
+
+}  // namespace
+
+Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> outputs,
+           DataThread thread)
+    : settings_(std::move(settings)),
+      thread_(std::move(thread)),
+      exchange_(settings_.method, settings_.parameters, std::move(make)),
+      succession_(settings_.held),
+      outputs_(std::move(outputs)),
+      next_index_(outputs_.size(), 0) {
+  for (const OutputPart& part : outputs_) {
+    thread_.record.add_output(part.topic);
+    results_.push_back({part.output.get(), false});
+  }
+}
+
+void Node::open(std::vector<InputPart> inputs) {
+  for (InputPart& part : inputs) {
+    thread_.record.add_input(part.port.name, part.topic);
+    joins_by_time_ = joins_by_time_ || part.port.join == Join::by_time;
+    ports_.push_back(std::make_unique<Port>());
+    ports_.back()->part = std::move(part);
+  }
+}
+
+std::size_t Node::matched_readers() const {
+  std::size_t sum = 0;
+  for (const OutputPart& part : outputs_) sum += part.output->matched();
+  return sum;
+}
+
+std::size_t Node::matched_writers() const {
+  std::size_t sum = 0;
+  for (const auto& port : ports_) sum += port->part.input->matched();
+  return sum;
+}
+
+void Node::report_endpoints(msg::ServiceStatus& status) const {
+  std::vector<std::string> mismatches;
+  const auto append = [&](std::vector<std::string> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(mismatches));
+  };
+  for (std::size_t i = 0; i < outputs_.size() && i < status.outputs().size(); ++i) {
+    status.outputs()[i].readers(static_cast<std::uint32_t>(outputs_[i].output->matched()));
+    append(outputs_[i].output->incompatible_qos());
+  }
+  for (std::size_t i = 0; i < ports_.size() && i < status.inputs().size(); ++i) {
+    status.inputs()[i].writers(static_cast<std::uint32_t>(ports_[i]->part.input->matched()));
+    append(ports_[i]->part.input->incompatible_qos());
+  }
+  status.incompatible_qos(std::move(mismatches));
+}
+
+void Node::assert_liveliness() {
+  for (const OutputPart& part : outputs_) part.output->assert_liveliness();
+}
+
+bool Node::step() {
+  if (left_) return false;
+  bool any = take_partners();
+  if (succession_.held()) return hold() || any;
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    if (!ports_[i]->each()) continue;
+    any = take_each(i) || any;
+    any = handle_next(i) || any;
+  }
+  if (succession_.asked()) look_whether_left();
+  return any && !left_;
+}
+
+void Node::drain() {
+  draining_ = true;
+  while (step()) {
+  }
+}
+
+void Node::leave() {
+  Positions next;
+  for (const auto& port : ports_) {
+    if (port->each()) next[port->part.port.name] = port->next;
+  }
+  succession_.left(next, exchange_.save());
+}
+
+std::optional<Node::Clock::time_point> Node::due() const {
+  std::optional<Clock::time_point> first;
+  for (const auto& port : ports_) {
+    if (port->queue.empty() || succession_.held()) continue;
+    if (!first || port->queue.front().deadline < *first) first = port->queue.front().deadline;
+  }
+  return first;
+}
+
+bool Node::take_partners() {
+  bool any = false;
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    Port& port = *ports_[i];
+    if (port.each()) continue;
+    while (auto message = port.part.input->take()) {
+      any = true;
+      if (account(i, *message->header)) port.partners.add(std::move(*message));
+    }
+  }
+  return any;
+}
+
+/// Receives without publishing until this node is to begin.
+bool Node::hold() {
+  bool any = false;
+  for (const auto& entry : ports_) {
+    Port& port = *entry;
+    if (!port.each()) continue;
+    while (port.queue.size() < most_kept) {
+      auto message = port.part.input->take();
+      if (!message) break;
+      any = true;
+      if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
+      port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+    }
+  }
+  if (const auto from = succession_.begin()) begin(*from);
+  return any;
+}
+
+void Node::begin(const Succession::Begin& from) {
+  try {
+    exchange_.restore(from.state);
+  } catch (const std::exception& error) {
+    spdlog::error("what the process before knew is dropped: {}", error.what());
+  }
+  for (const auto& port : ports_) {
+    const auto position = from.positions.find(port->part.port.name);
+    if (position != from.positions.end()) port->begin_with = position->second;
+  }
+  thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
+}
+
+/// What cannot be handled at once stays with DDS, whose QoS says what happens to it, unless it waits
+/// for what is joined to it.
+bool Node::take_each(std::size_t index) {
+  Port& port = *ports_[index];
+  bool any = false;
+  while (port.queue.size() < (joins_by_time_ ? most_waiting : 1)) {
+    auto message = port.part.input->take();
+    if (!message) break;
+    any = true;
+    port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+  }
+  return any;
+}
+
+/// Counts a message; false when it is one that came before.
+bool Node::account(std::size_t index, const msg::Header& header) {
+  Port& port = *ports_[index];
+  std::uint64_t link_lost = 0;
+  std::uint64_t upstream_lost = 0;
+  for (const Loss& loss : port.accounting.receive(header)) {
+    (loss.site.place == LossPlace::link ? link_lost : upstream_lost) += loss.count;
+    spdlog::warn("{} scans of {}..{} lost by {}", loss.count, loss.first_sequence,
+                 loss.last_sequence, to_text(loss.site));
+  }
+  if (port.accounting.last_was_duplicate()) {
+    thread_.record.count_duplicate(index);
+    return false;
+  }
+  thread_.record.count_received(index, port.each(), upstream_lost, link_lost);
+  return true;
+}
+
+/// Whether nothing more can come for it, or it has waited for long enough.
+bool Node::complete(const Pending& pending) const {
+  if (!joins_by_time_ || draining_ || thread_.stopping() || succession_.asked()) return true;
+  const std::int64_t stamp = pending.message.header->stamp();
+  const bool all = std::all_of(ports_.begin(), ports_.end(), [&](const auto& port) {
+    return port->part.port.join != Join::by_time || port->partners.after(stamp) != nullptr;
+  });
+  return all || Clock::now() >= pending.deadline;
+}
+
+bool Node::handle_next(std::size_t index) {
+  Port& port = *ports_[index];
+  if (port.queue.empty() || port.left || !complete(port.queue.front())) return false;
+  const Pending pending = std::move(port.queue.front());
+  port.queue.pop_front();
+  thread_.pulse.beat();
+  const std::uint64_t number = number_of(pending.message);
+  if (succession_.leaves(port.part.port.name, number)) {
+    port.left = true;
+    port.queue.clear();
+    return true;
+  }
+  // The predecessor has handled these; with another input they may come late.
+  if (port.begin_with && number < *port.begin_with) return true;
+  port.begin_with.reset();
+  if (!account(index, *pending.message.header)) return true;
+  port.next = number + 1;
+  if (exchange_.apply(number)) thread_.record.set_method(exchange_.name());
+  handle(index, pending);
+  return true;
+}
+
+void Node::join(const msg::Header& header, std::vector<Work::Partner>& partners) {
+  partners.clear();
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    Port& port = *ports_[i];
+    if (port.each()) continue;
+    Work::Partner& partner = partners.emplace_back();
+    partner.port = port.part.port.name;
+    if (port.part.port.join == Join::latest) {
+      partner.before = port.partners.latest();
+      note_missing(i, partner.before == nullptr);
+    } else {
+      port.partners.forget_before(header.stamp());
+      partner.before = port.partners.before(header.stamp());
+      partner.after = port.partners.after(header.stamp());
+      note_missing(i, partner.after == nullptr);
+    }
+  }
+}
+
+/// Counts each result without a partner, and says so when that begins and when it ends.
+void Node::note_missing(std::size_t index, bool missing) {
+  Port& port = *ports_[index];
+  if (missing) thread_.record.count_unjoined(index);
+  if (std::exchange(port.missed, missing) == missing) return;
+  std::string text;
+  if (missing) {
+    text = "nothing comes by port " + port.part.port.name + " from '" + port.part.writer +
+           "' in time; going on without it";
+    spdlog::warn("{}", text);
+  } else {
+    spdlog::info("port {} is joined again", port.part.port.name);
+  }
+  thread_.record.set_detail(text);
+}
+
+void Node::handle(std::size_t index, const Pending& pending) {
+  join(*pending.message.header, joined_);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    results_[i].publish = outputs_[i].port.rate == Rate::per_input;
+  }
+  Work work(pending.message, ports_[index]->part.port.name, joined_, results_);
+  try {
+    exchange_.method().handle(work);
+  } catch (const std::exception& error) {
+    thread_.record.count_loss(LossCause::processing);
+    spdlog::error("scan {}: {}", number_of(pending.message), error.what());
+    return;
+  }
+  publish(index, pending, work.failures());
+}
+
+void Node::publish(std::size_t index, const Pending& pending, std::size_t failures) {
+  bool delivered = true;
+  std::int64_t published = 0;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (!results_[i].publish) continue;
+    OutputPart& part = outputs_[i];
+    write_header(i, index, pending);
+    msg::StageTrace& trace = part.output->header().trace().back();
+    const bool written = deliver(*part.output, trace, part.lossless, thread_);
+    thread_.record.count_output(i, written);
+    if (written) ++next_index_[i];
+    delivered = delivered && written;
+    published = trace.published();
+  }
+  if (!delivered) {
+    thread_.record.count_loss(LossCause::publishing);
+    return;
+  }
+  const auto& first = pending.message.header->trace();
+  thread_.record.count_result(first.empty() ? pending.received : first.front().published(),
+                              pending.received, published == 0 ? now_ns() : published, failures);
+}
+
+/// A result per input goes by the name of what it was made from. What has a rate of its own is
+/// numbered by this node, as a source numbers its scans.
+void Node::write_header(std::size_t output, std::size_t index, const Pending& pending) {
+  const msg::Header& in = *pending.message.header;
+  msg::Header& out = outputs_[output].output->header();
+  if (outputs_[output].port.rate == Rate::per_input) {
+    out = in;
+  } else {
+    topics::set_origin(out, settings_.service, thread_.record.incarnation(), next_index_[output]);
+    out.origins().insert(out.origins().end(), in.origins().begin(), in.origins().end());
+    out.stamp(in.stamp());
+    out.frame(in.frame());
+    out.trace().clear();
+  }
+  for (const Work::Partner& partner : joined_) {
+    for (const Message* message : {partner.before, partner.after}) {
+      if (message == nullptr || (message == partner.after && partner.after == partner.before)) continue;
+      if (!message->header->origins().empty()) {
+        out.origins().push_back(message->header->origins().front());
+      }
+    }
+  }
+  msg::StageTrace& trace = out.trace().emplace_back();
+  trace.service(settings_.service);
+  trace.input(ports_[index]->part.port.name);
+  trace.method(exchange_.name());
+  trace.incarnation(thread_.record.incarnation());
+  trace.index(next_index_[output]);
+  trace.received(pending.received);
+}
+
+void Node::look_whether_left() {
+  bool all = true;
+  for (const auto& port : ports_) {
+    if (!port->each()) continue;
+    port->left = port->left || succession_.leaves(port->part.port.name, port->next);
+    all = all && port->left;
+  }
+  left_ = all;
+}
+
+}  // namespace quoin::runtime

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/node/run_node.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <spdlog/spdlog.h>
+
+#include "services/deployment/graph.hpp"
+#include "services/runtime/node/node.hpp"
+#include "services/runtime/process/control.hpp"
+#include "services/runtime/process/service.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds longest_wait{1000};
+constexpr milliseconds pause_when_full{2};
+
+/// Runs one node in the thread that calls run().
+class NodeProcess {
+ public:
+  NodeProcess(Service& service, const KindInfo& kind, const PortTypes& types,
+              const MethodFactory& make)
+      : service_(service),
+        kind_(kind),
+        types_(types),
+        node_({.service = service.config.name,
+               .method = service.config.method,
+               .parameters = service.config.parameters,
+               .held = service.held},
+              make, outputs(), service.data_thread()),
+        control_(service, node_.succession(),
+                 [this](const msg::ControlRequest& request, msg::ControlReply& reply) {
+                   node_.exchange().handle(request, reply);
+                 }) {}
+
+  int run() {
+    set_endpoint_report();
+    // The inputs are opened once the outputs have their readers: so a whole deployment comes up from
+    // its end to its sources, and the first scan finds everybody listening.
+    std::vector<const Output*> waiting;
+    for (const Node::OutputPart& part : node_.outputs()) waiting.push_back(part.output.get());
+    if (service_.wait_for_readers(waiting, node_.succession())) work();
+    service_.heartbeat.stopping();
+    for (const Node::OutputPart& part : node_.outputs()) {
+      if (!part.output->wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
+        spdlog::warn("not all readers have acknowledged the last results");
+      }
+    }
+    node_.leave();
+    service_.heartbeat.finish(msg::ServiceState::STATE_STOPPED);
+    service_.record.set_endpoint_report(nullptr);
+    return exit_ok;
+  }
+
+ private:
+  [[nodiscard]] std::vector<Node::OutputPart> outputs() {
+    std::vector<Node::OutputPart> parts;
+    for (std::size_t i = 0; i < kind_.outputs.size(); ++i) {
+      const OutputConfig& output = service_.config.outputs[i];
+      const TopicQos qos = output_qos(service_.config, output);
+      parts.push_back({kind_.outputs[i], output.topic, qos.preset == QosPreset::lossless,
+                       types_.outputs[i](service_.participant, output.topic, qos)});
+    }
+    return parts;
+  }
+
+  void open_inputs() {
+    std::vector<Node::InputPart> parts;
+    for (const Connection& connection : service_.graph.inputs_of(service_.config)) {
+      const InputPort& port = *kind_.input(connection.port);
+      const ServiceConfig& writer = *connection.writer;
+      DdsInput made = types_.inputs[static_cast<std::size_t>(&port - kind_.inputs.data())](
+          service_.participant, connection.output.topic, output_qos(writer, connection.output),
+          writer.external() ? writer.name : "");
+      wait_set_.add(*made.reader);
+      parts.push_back({port, writer.name, connection.output.topic, std::move(made.input)});
+    }
+    // The heartbeat asks the node for its ports.
+    service_.record.set_endpoint_report(nullptr);
+    node_.open(std::move(parts));
+    set_endpoint_report();
+  }
+
+  void set_endpoint_report() {
+    service_.record.set_endpoint_report(
+        [this](msg::ServiceStatus& status) { node_.report_endpoints(status); });
+  }
+
+  void work() {
+    open_inputs();
+    service_.stop.on_request([&] { wait_set_.wake(); });
+    node_.succession().on_request([&] { wait_set_.wake(); });
+    if (get_ready()) {
+      while (!service_.stop.requested() && !node_.has_left()) turn();
+      if (!node_.has_left() && !node_.succession().held()) node_.drain();
+    }
+    node_.succession().on_request(nullptr);
+    service_.stop.on_request(nullptr);
+  }
+
+  /// False when it is to stop instead.
+  bool get_ready() {
+    if (!node_.succession().held()) {
+      service_.record.set_state(msg::ServiceState::STATE_ACTIVE);
+      return true;
+    }
+    service_.record.set_state(msg::ServiceState::STATE_STARTING, "waiting for its input");
+    while (node_.matched_writers() == 0) {
+      if (!service_.stop.wait_until(Clock::now() + milliseconds(20))) return false;
+    }
+    service_.record.set_state(msg::ServiceState::STATE_HELD);
+    return true;
+  }
+
+  void turn() {
+    // An instance that stands by, or is stood by for, tells that it lives; from this thread, so that
+    // one whose method hangs is replaced.
+    milliseconds timeout = longest_wait;
+    if (service_.config.strength) timeout = service_.config.lease / 4;
+    if (const auto due = node_.due()) {
+      const auto left = std::chrono::ceil<milliseconds>(*due - Clock::now());
+      timeout = std::clamp(left, milliseconds(0), timeout);
+    }
+    service_.heartbeat.pulse().wait_until(Clock::now() + timeout);
+    const bool active = wait_set_.wait(timeout);
+    if (!active && service_.config.strength) node_.assert_liveliness();
+    bool any = false;
+    while (node_.step()) any = true;
+    // What has no room here stays with DDS, which goes on to say that there is something.
+    if (active && !any) (void)service_.stop.wait_until(Clock::now() + pause_when_full);
+  }
+
+  Service& service_;
+  const KindInfo& kind_;
+  const PortTypes& types_;
+  Node node_;
+  ControlServer control_;  // its threads use the node
+  WaitSet wait_set_;
+};
+
+}  // namespace
+
+int run_node(int argc, char** argv, const KindInfo& kind, const PortTypes& types,
+             const MethodFactory& make) {
+  return run_service(
+      argc, argv, kind,
+      [&](const Deployment&, const ServiceConfig& config) {
+        (void)make(config.method, config.parameters);  // throws before DDS is touched
+      },
+      [&](Service& service) { return NodeProcess(service, kind, types, make).run(); });
+}
+
+}  // namespace quoin::runtime

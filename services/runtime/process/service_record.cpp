@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/process/service_record.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unistd.h>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "services/runtime/dds/interfaces.hpp"
+#include "services/runtime/process/clock.hpp"
+#include "services/runtime/process/memory.hpp"
+
+namespace quoin::runtime {
+
+namespace {
+
+constexpr std::array<const char*, 3> cause_names{"link", "processing", "publishing"};
+
+double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
+
+}  // namespace
+
+std::string state_name(msg::ServiceState state) {
+  switch (state) {
+    case msg::STATE_STARTING:
+      return "starting";
+    case msg::STATE_HELD:
+      return "held";
+    case msg::STATE_ACTIVE:
+      return "active";
+    case msg::STATE_FINISHED:
+      return "finished";
+    case msg::STATE_STOPPED:
+      return "stopped";
+    case msg::STATE_FAILED:
+      return "failed";
+  }
+  return "unknown";
+}
+
+ServiceRecord::ServiceRecord(const ServiceConfig& config)
+    : incarnation_(static_cast<std::uint64_t>(now_ns())), rate_since_(now_ns()) {
+  status_.service(label(config));
+  status_.kind(config.kind);
+  status_.method(config.method);
+  status_.host(host_name());
+  status_.pid(static_cast<std::uint32_t>(getpid()));
+  status_.incarnation(incarnation_);
+  status_.state(msg::ServiceState::STATE_STARTING);
+}
+
+void ServiceRecord::set_state(msg::ServiceState state, const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  status_.state(state);
+  status_.detail(detail);
+  changed_state_ = true;
+  changed_.notify_all();
+}
+
+void ServiceRecord::set_detail(const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  status_.detail(detail);
+}
+
+void ServiceRecord::set_method(const std::string& method) {
+  const std::lock_guard lock(mutex_);
+  status_.method(method);
+}
+
+void ServiceRecord::set_first_sequence_number(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  status_.first_sequence_number(number);
+}
+
+void ServiceRecord::set_diagnostic(const std::string& name, const std::string& value) {
+  const std::lock_guard lock(mutex_);
+  for (msg::Diagnostic& diagnostic : status_.diagnostics()) {
+    if (diagnostic.name() == name) {
+      diagnostic.value(value);
+      return;
+    }
+  }
+  msg::Diagnostic& diagnostic = status_.diagnostics().emplace_back();
+  diagnostic.name(name);
+  diagnostic.value(value);
+}
+
+void ServiceRecord::set_endpoint_report(std::function<void(msg::ServiceStatus&)> report) {
+  const std::lock_guard lock(mutex_);
+  endpoint_report_ = std::move(report);
+}
+
+void ServiceRecord::add_input(const std::string& port, const std::string& topic) {
+  const std::lock_guard lock(mutex_);
+  msg::InputStatus& input = status_.inputs().emplace_back();
+  input.port(port);
+  input.topic(topic);
+}
+
+void ServiceRecord::add_output(const std::string& topic) {
+  const std::lock_guard lock(mutex_);
+  status_.outputs().emplace_back().topic(topic);
+}
+
+void ServiceRecord::count_received(std::size_t input, bool each, std::uint64_t upstream_lost,
+                                   std::uint64_t link_lost) {
+  const std::lock_guard lock(mutex_);
+  msg::InputStatus& port = status_.inputs()[input];
+  ++port.received();
+  port.upstream_lost() += upstream_lost;
+  port.lost() += link_lost;
+  if (!each) return;
+  ++status_.received();
+  status_.upstream_lost() += upstream_lost;
+  losses_[static_cast<std::size_t>(LossCause::link)] += link_lost;
+}
+
+void ServiceRecord::count_duplicate(std::size_t input) {
+  const std::lock_guard lock(mutex_);
+  ++status_.inputs()[input].duplicates();
+}
+
+void ServiceRecord::count_unjoined(std::size_t input) {
+  const std::lock_guard lock(mutex_);
+  ++status_.inputs()[input].unjoined();
+}
+
+void ServiceRecord::count_loss(LossCause cause) {
+  const std::lock_guard lock(mutex_);
+  ++losses_[static_cast<std::size_t>(cause)];
+}
+
+void ServiceRecord::count_control_drop() {
+  const std::lock_guard lock(mutex_);
+  ++status_.control_dropped();
+}
+
+void ServiceRecord::count_output(std::size_t output, bool published) {
+  const std::lock_guard lock(mutex_);
+  msg::OutputStatus& topic = status_.outputs()[output];
+  ++(published ? topic.published() : topic.lost());
+}
+
+void ServiceRecord::count_result(std::int64_t scan_published, std::int64_t received,
+                                 std::int64_t published, std::size_t failures) {
+  const std::lock_guard lock(mutex_);
+  ++status_.published();
+  status_.failures() += failures;
+  latency_.add(seconds(scan_published, published));
+  processing_.add(seconds(received, published));
+}
+
+void ServiceRecord::wait_for_change(std::chrono::milliseconds timeout) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, timeout, [this] { return closed_ || changed_state_; });
+}
+
+void ServiceRecord::close() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+bool ServiceRecord::closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
+msg::ServiceStatus ServiceRecord::snapshot() {
+  const std::uint64_t resident = resident_memory();
+  const std::lock_guard lock(mutex_);
+  changed_state_ = false;
+  const std::int64_t now = now_ns();
+  const double elapsed = seconds(rate_since_, now);
+  if (elapsed >= 0.5) {  // heartbeats at changes of state come too close for a rate
+    status_.rate(static_cast<double>(status_.published() - rate_published_) / elapsed);
+    rate_published_ = status_.published();
+    rate_since_ = now;
+  }
+  status_.stamp(now);
+  std::uint64_t lost = 0;
+  status_.losses().clear();
+  for (std::size_t i = 0; i < cause_names.size(); ++i) {
+    if (losses_[i] == 0) continue;
+    lost += losses_[i];
+    msg::LossCount& count = status_.losses().emplace_back();
+    count.cause(cause_names[i]);
+    count.count(losses_[i]);
+  }
+  status_.lost(lost);
+  status_.latency_p50(latency_.quantile(0.5));
+  status_.latency_p99(latency_.quantile(0.99));
+  status_.processing_p50(processing_.quantile(0.5));
+  status_.processing_p99(processing_.quantile(0.99));
+  status_.resident_memory(resident);
+  const std::vector<std::string> known = status_.incompatible_qos();
+  if (endpoint_report_) endpoint_report_(status_);
+  for (const std::string& mismatch : status_.incompatible_qos()) {
+    if (std::find(known.begin(), known.end(), mismatch) == known.end()) {
+      spdlog::warn("QoS does not match: {}", mismatch);
+    }
+  }
+  return status_;
+}
+
+}  // namespace quoin::runtime

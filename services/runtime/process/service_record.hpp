@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <idl/Status.h>
+#include <mutex>
+#include <string>
+
+#include "core/statistics/quantile_histogram.hpp"
+#include "services/deployment/deployment.hpp"
+
+namespace quoin::runtime {
+
+/// Where a scan was lost inside the reach of one service.
+enum class LossCause {
+  link,        ///< on the way from the service before
+  processing,  ///< the method threw
+  publishing,  ///< DDS did not take the result
+};
+
+/// "starting", "active", ...
+[[nodiscard]] std::string state_name(msg::ServiceState state);
+
+/// What one service counts and says of itself. Any thread may write, another publishes it
+/// (Heartbeat). Knows no DDS.
+class ServiceRecord {
+ public:
+  explicit ServiceRecord(const ServiceConfig& config);
+  ServiceRecord(const ServiceRecord&) = delete;
+  ServiceRecord& operator=(const ServiceRecord&) = delete;
+
+  /// Start of this process [ns since the Unix epoch].
+  [[nodiscard]] std::uint64_t incarnation() const { return incarnation_; }
+
+  void set_state(msg::ServiceState state, const std::string& detail = "");
+  void set_detail(const std::string& detail);
+  void set_method(const std::string& method);
+  /// Of a source that does not begin with scan 0.
+  void set_first_sequence_number(std::uint64_t number);
+  /// Adds the entry of this name, or replaces its value.
+  void set_diagnostic(const std::string& name, const std::string& value);
+  /// Asked at each snapshot for what the endpoints know: fills writers, readers and the
+  /// incompatible_ field. An empty function takes the report back: when this returns, it no longer
+  /// runs.
+  void set_endpoint_report(std::function<void(msg::ServiceStatus&)> report);
+
+  /// Adds a port; its number is how many there were before.
+  void add_input(const std::string& port, const std::string& topic);
+  void add_output(const std::string& topic);
+
+  /// A message came by that input port. What an `each` port received and missed counts for the
+  /// service.
+  void count_received(std::size_t input, bool each, std::uint64_t upstream_lost,
+                      std::uint64_t link_lost);
+  void count_duplicate(std::size_t input);
+  /// A result was made without a message of that port.
+  void count_unjoined(std::size_t input);
+  void count_loss(LossCause cause);
+  void count_control_drop();
+  /// A message went out on that topic, or did not.
+  void count_output(std::size_t output, bool published);
+  /// A result was published: stage times [ns since the Unix epoch] and parts without a result.
+  void count_result(std::int64_t scan_published, std::int64_t received, std::int64_t published,
+                    std::size_t failures);
+
+  /// Waits until the state changes or the record is closed, at most for `timeout`.
+  void wait_for_change(std::chrono::milliseconds timeout);
+  /// No change is waited for any more.
+  void close();
+  [[nodiscard]] bool closed() const;
+
+  /// All of it as it is now.
+  [[nodiscard]] msg::ServiceStatus snapshot();
+
+ private:
+  const std::uint64_t incarnation_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool changed_state_ = false;
+  bool closed_ = false;
+  msg::ServiceStatus status_;
+  std::uint64_t losses_[3] = {0, 0, 0};
+  QuantileHistogram latency_;
+  QuantileHistogram processing_;
+  std::uint64_t rate_published_ = 0;
+  std::int64_t rate_since_ = 0;
+  std::function<void(msg::ServiceStatus&)> endpoint_report_;
+};
+
+}  // namespace quoin::runtime
