@@ -8,6 +8,7 @@
 #include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include "services/runtime/dds/cdr_type_impl.hpp"
 #include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/reader_impl.hpp"
 
@@ -17,12 +18,12 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
-                       const TopicQos& qos)
+ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+                       const topics::CdrCodec* codec, const TopicQos& qos)
     : participant(owner), topic_name(topic) {
-  reader =
-      owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type), reader_qos(qos),
-                                                 this, dds::StatusMask::subscription_matched());
+  reader = owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type_name, codec),
+                                                      reader_qos(qos), this,
+                                                      dds::StatusMask::subscription_matched());
   if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
   reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
 }
@@ -36,7 +37,10 @@ void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
   match.set_matched(status.current_count);
 }
 
-ReaderBase::ReaderBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ReaderBase::ReaderBase(Participant& participant, const std::string& topic,
+                       const std::string& type_name, const topics::CdrCodec* codec,
+                       const TopicQos& qos)
+    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
 ReaderBase::~ReaderBase() = default;
 
 std::size_t ReaderBase::matched() const { return impl_->match.matched(); }
@@ -50,12 +54,28 @@ std::vector<std::string> ReaderBase::incompatible_qos() const {
                                                                 policies_of(*impl_->reader));
 }
 
-bool ReaderBase::take_raw(void* sample) {
-  dds::SampleInfo info;
-  while (impl_->reader->take_next_sample(sample, &info) == ReturnCode_t::RETCODE_OK) {
+namespace {
+
+bool take_next(dds::DataReader& reader, CdrSample sample, dds::SampleInfo& info) {
+  while (reader.take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
     if (info.valid_data) return true;  // others tell of instances that ended
   }
   return false;
+}
+
+}  // namespace
+
+bool ReaderBase::take_typed(void* message, const topics::CdrCodec& codec) {
+  dds::SampleInfo info;
+  return take_next(*impl_->reader, {message, &codec}, info);
+}
+
+bool ReaderBase::take_raw(topics::RawMessage& message) {
+  dds::SampleInfo info;
+  if (!take_next(*impl_->reader, {&message, nullptr}, info)) return false;
+  message.published = info.source_timestamp.to_ns();
+  message.received = info.reception_timestamp.to_ns();
+  return true;
 }
 
 struct WaitSet::Impl {
