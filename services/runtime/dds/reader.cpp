@@ -54,27 +54,26 @@ std::vector<std::string> ReaderBase::incompatible_qos() const {
                                                                 policies_of(*impl_->reader));
 }
 
-namespace {
-
-bool take_next(dds::DataReader& reader, CdrSample sample, dds::SampleInfo& info) {
-  while (reader.take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
-    if (info.valid_data) return true;  // others tell of instances that ended
+bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
+  CdrSample sample{message, codec};
+  dds::SampleInfo info;
+  while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+    if (!info.valid_data) continue;  // tells of an instance that ended
+    const auto& writer = info.sample_identity.writer_guid();
+    std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+    for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
+    for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
+    last_sample_ = {hash, info.sample_identity.sequence_number().to64long(),
+                    info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()};
+    return true;
   }
   return false;
 }
 
-}  // namespace
-
-bool ReaderBase::take_typed(void* message, const topics::CdrCodec& codec) {
-  dds::SampleInfo info;
-  return take_next(*impl_->reader, {message, &codec}, info);
-}
-
-bool ReaderBase::take_raw(topics::RawMessage& message) {
-  dds::SampleInfo info;
-  if (!take_next(*impl_->reader, {&message, nullptr}, info)) return false;
-  message.published = info.source_timestamp.to_ns();
-  message.received = info.reception_timestamp.to_ns();
+bool RawReader::take(topics::RawMessage& message) {
+  if (!take_sample(&message, nullptr)) return false;
+  message.published = last_sample().sent;
+  message.received = last_sample().received;
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,15 @@ class ReaderBase {
   /// Writers of this topic that do not fit, each with topic, policy and both sides' values.
   [[nodiscard]] std::vector<std::string> incompatible_qos() const;
 
+  /// Where the message that was taken last came from, as DDS counts.
+  struct Sample {
+    std::uint64_t writer = 0;           ///< another one for another writer
+    std::uint64_t sequence_number = 0;  ///< of the sample among those of that writer, from 1
+    std::int64_t sent = 0;              ///< [ns since the Unix epoch], by the writer's clock
+    std::int64_t received = 0;          ///< [ns since the Unix epoch], by the clock of this host
+  };
+  [[nodiscard]] const Sample& last_sample() const { return last_sample_; }
+
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }
 
@@ -33,11 +43,12 @@ class ReaderBase {
   /// `codec` is null for raw messages.
   ReaderBase(Participant& participant, const std::string& topic, const std::string& type_name,
              const topics::CdrCodec* codec, const TopicQos& qos);
-  bool take_typed(void* message, const topics::CdrCodec& codec);
-  bool take_raw(topics::RawMessage& message);
+  /// The next sample into a message of the codec's type, or into a topics::RawMessage.
+  bool take_sample(void* message, const topics::CdrCodec* codec);
 
  private:
   std::unique_ptr<Impl> impl_;
+  Sample last_sample_;
 };
 
 /// Reads messages of one of the idl types from a topic. Throws std::runtime_error when DDS refuses
@@ -49,7 +60,7 @@ class Reader : public ReaderBase {
       : ReaderBase(participant, topic, topics::cdr_codec<T>().type_name, &topics::cdr_codec<T>(),
                    qos) {}
   /// Next message into `message`, whose memory is reused; false when there is none.
-  bool take(T& message) { return take_typed(&message, topics::cdr_codec<T>()); }
+  bool take(T& message) { return take_sample(&message, &topics::cdr_codec<T>()); }
 };
 
 /// Reads the bytes of messages of any type, of which only the name needs to be known. It must be a
@@ -62,7 +73,7 @@ class RawReader : public ReaderBase {
       : ReaderBase(participant, topic, dds_type, nullptr, qos) {}
   /// Next message into `message`, whose memory is reused; false when there is none. The bytes are
   /// as they were sent, by whomever: decode, read_header and cdr_to_json check them.
-  bool take(topics::RawMessage& message) { return take_raw(message); }
+  bool take(topics::RawMessage& message);
 };
 
 /// Waits for any of several readers, or to be woken.

@@ -60,15 +60,14 @@ std::vector<std::string> WriterBase::incompatible_qos() const {
 
 void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
 
-bool WriterBase::write_typed(const void* message, const topics::CdrCodec& codec) {
-  CdrSample sample{const_cast<void*>(message), &codec};  // DDS only reads it
+bool WriterBase::write_sample(const void* message, const topics::CdrCodec* codec) {
+  CdrSample sample{const_cast<void*>(message), codec};  // DDS only reads it
   return impl_->writer->write(&sample);
 }
 
-bool WriterBase::write_raw(const topics::RawMessage& message) {
-  CdrSample sample{const_cast<topics::RawMessage*>(&message), nullptr};  // DDS only reads it
+bool RawWriter::write(const topics::RawMessage& message) {
   return topics::is_plain_cdr(message.cdr.data(), message.cdr.size()) &&
-         impl_->writer->write(&sample);
+         write_sample(&message, nullptr);
 }
 
 }  // namespace quoin::runtime

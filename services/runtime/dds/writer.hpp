@@ -38,8 +38,7 @@ class WriterBase {
   WriterBase(Participant& participant, const std::string& topic, const std::string& type_name,
              const topics::CdrCodec* codec, const TopicQos& qos);
   /// False when the sample could not be taken (lossless: the history stayed full for a second).
-  bool write_typed(const void* message, const topics::CdrCodec& codec);
-  bool write_raw(const topics::RawMessage& message);
+  bool write_sample(const void* message, const topics::CdrCodec* codec);
 
  private:
   std::unique_ptr<Impl> impl_;
@@ -53,7 +52,7 @@ class Writer : public WriterBase {
   Writer(Participant& participant, const std::string& topic, const TopicQos& qos)
       : WriterBase(participant, topic, topics::cdr_codec<T>().type_name, &topics::cdr_codec<T>(),
                    qos) {}
-  bool write(const T& message) { return write_typed(&message, topics::cdr_codec<T>()); }
+  bool write(const T& message) { return write_sample(&message, &topics::cdr_codec<T>()); }
 };
 
 /// Writes messages of any type without key, as bytes. Throws std::runtime_error when DDS refuses to
@@ -65,7 +64,7 @@ class RawWriter : public WriterBase {
       : WriterBase(participant, topic, dds_type, nullptr, qos) {}
   /// Only the bytes are sent, filled up with zeros to a multiple of four; the times are those of
   /// now. False, too, when they do not begin as XCDR1 does; the rest is not checked.
-  bool write(const topics::RawMessage& message) { return write_raw(message); }
+  bool write(const topics::RawMessage& message);
 };
 
 }  // namespace quoin::runtime

@@ -78,6 +78,30 @@ TEST(Raw, ARawReaderGetsTheBytesOfATypedWriter) {
   EXPECT_FALSE(reader.take(got));
 }
 
+TEST(Raw, ASampleSaysWhichWriterItIsOfAndWhichOfItsSamples) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  const std::string topic = test_namespace() + "/front/scan";
+  Writer<msg::Scan> first(sender, topic, QosPreset::sensor);
+  Writer<msg::Scan> second(sender, topic, QosPreset::sensor);
+  RawReader reader(receiver, topic, scan_type, QosPreset::sensor);
+  ASSERT_TRUE(first.wait_for_readers(1, 10s));
+  ASSERT_TRUE(second.wait_for_readers(1, 10s));
+  RawMessage got;
+  const auto sample_of = [&](Writer<msg::Scan>& writer) {
+    EXPECT_TRUE(writer.write(scan_of(1, 0)));
+    EXPECT_TRUE(take_within(reader, got));
+    return reader.last_sample();
+  };
+  const auto a = sample_of(first);
+  const auto b = sample_of(second);
+  const auto c = sample_of(first);
+  EXPECT_NE(a.writer, b.writer);
+  EXPECT_EQ(a.writer, c.writer);
+  EXPECT_EQ(b.sequence_number, 1U);
+  EXPECT_EQ(c.sequence_number, 2U);
+}
+
 TEST(Raw, ATypedReaderGetsTheMessageOfARawWriter) {
   Participant sender({test_domain(), "sender"});
   Participant receiver({test_domain(), "receiver"});
