@@ -8,16 +8,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "deploy/command/commands.hpp"
+#include "deploy/orchestration/signals.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/kinds.hpp"
 #include "services/keys/key_files.hpp"
-#include "deploy/command/commands.hpp"
-#include "services/topics/message_json.hpp"
-#include "services/topics/message_text.hpp"
-#include "deploy/orchestration/signals.hpp"
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
+#include "services/topics/cdr_codec.hpp"
+#include "services/topics/cdr_json.hpp"
+#include "services/topics/message_text.hpp"
+#include "services/topics/topic_types.hpp"
 
 namespace quoin::deploy {
 
@@ -32,36 +34,52 @@ struct EchoOptions {
   bool json = false;
 };
 
-template <class T>
-int echo(const Deployment& deployment, const ServiceConfig& service, const EchoOptions& options) {
+/// A topic of a deployment, and how to read it.
+struct EchoTopic {
+  std::string name;
+  topics::TopicType type;
+  runtime::TopicQos qos;
+};
+
+/// Throws topics::CdrError for bytes that are no message of the type.
+std::string printed(const topics::TopicType& type, const topics::RawMessage& message, bool json) {
+  const nlohmann::ordered_json fields = topics::cdr_to_json(type.dds_type, message.cdr);
+  return json ? fields.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+              : topics::to_text(type.dds_type, fields);
+}
+
+int echo(const Deployment& deployment, const EchoTopic& topic, const EchoOptions& options) {
   Signals signals;
   runtime::Participant participant(
       runtime::participant_config(deployment, "quoin_echo", observer_identity));
-  const std::string topic = output_topic(deployment, service);
-  runtime::Reader<T> reader(participant, topic, runtime::onlooker_qos(service));
+  runtime::RawReader reader(participant, topic.name, std::string(topic.type.dds_type), topic.qos);
   runtime::WaitSet wait_set;
   wait_set.add(reader);
   if (!reader.wait_for_writers(1, milliseconds(1500))) {
-    std::cerr << "nobody publishes " << topic << " yet; waiting (quoin up starts a deployment)\n";
+    std::cerr << "nobody publishes " << topic.name
+              << " yet; waiting (quoin up starts a deployment)\n";
   }
   runtime::ScanAccounting accounting;
-  T message;
-  std::uint64_t printed = 0;
+  topics::RawMessage message;
+  msg::Header header;
+  std::uint64_t count = 0;
   while (signals.take() == 0) {
     wait_set.wait(milliseconds(100));
     while (reader.take(message)) {
-      // Two instances of a service may both have handled a scan when one takes over.
-      accounting.receive(message.header());
-      if (accounting.last_was_duplicate()) continue;
-      if (options.json) {
-        std::cout << topics::to_json(message).dump(-1, ' ', false,
-                                           nlohmann::ordered_json::error_handler_t::replace)
-                  << std::endl;
-      } else {
-        std::cout << topics::to_text(message) << std::endl;
+      try {
+        const std::string line = printed(topic.type, message, options.json);
+        // Two instances of a service may both have handled a scan when one takes over.
+        if (topics::read_header(message, header)) {
+          accounting.receive(header);
+          if (accounting.last_was_duplicate()) continue;
+        }
+        std::cout << line << std::endl;
+      } catch (const topics::CdrError& error) {
+        std::cerr << topic.name << ": discarded a message: " << error.what() << '\n';
+        continue;
       }
       if (!std::cout) return exit_failure;  // nobody reads any more
-      if (++printed == options.count) return exit_ok;
+      if (++count == options.count) return exit_ok;
     }
   }
   return options.count == 0 ? exit_ok : exit_failure;
@@ -70,20 +88,14 @@ int echo(const Deployment& deployment, const ServiceConfig& service, const EchoO
 int run(const EchoOptions& options) {
   const Deployment deployment = load_deployment(options.file);
   const ServiceConfig& service = deployment.service(options.service);
-  switch (find_kind(service.kind)->output) {
-    case MessageType::scan:
-      return echo<msg::Scan>(deployment, service, options);
-    case MessageType::segments:
-      return echo<msg::Segments>(deployment, service, options);
-    case MessageType::lines:
-      return echo<msg::Lines>(deployment, service, options);
-    case MessageType::corners:
-      return echo<msg::Corners>(deployment, service, options);
-    case MessageType::none:
-      break;
+  const topics::TopicType* type =
+      topics::find_topic_type(message_name(find_kind(service.kind)->output));
+  if (type == nullptr) {
+    std::cerr << "service '" << service.name << "' publishes nothing\n";
+    return exit_configuration;
   }
-  std::cerr << "service '" << service.name << "' publishes nothing\n";
-  return exit_configuration;
+  return echo(deployment,
+              {output_topic(deployment, service), *type, runtime::onlooker_qos(service)}, options);
 }
 
 }  // namespace
