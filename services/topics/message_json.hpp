@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <idl/Corners.h>
-#include <idl/Lines.h>
-#include <idl/Scan.h>
-#include <idl/Segments.h>
+#include <nlohmann/json.hpp>
 
-#include <nlohmann/json_fwd.hpp>
+#include "services/topics/cdr_codec.hpp"
+#include "services/topics/cdr_json.hpp"
 
 namespace quoin::topics {
 
-// Messages with all their fields under the names of the IDL. Numbers that JSON cannot express
-// (ranges that are infinite or not a number) become null.
-[[nodiscard]] nlohmann::ordered_json to_json(const msg::Scan& message);
-[[nodiscard]] nlohmann::ordered_json to_json(const msg::Segments& message);
-[[nodiscard]] nlohmann::ordered_json to_json(const msg::Lines& message);
-[[nodiscard]] nlohmann::ordered_json to_json(const msg::Corners& message);
+/// What cdr_to_json makes of the bytes of this message, whose type is of one of the files of idl/.
+template <class T>
+[[nodiscard]] nlohmann::ordered_json to_json(const T& message) {
+  RawMessage raw;
+  encode(message, raw);
+  return cdr_to_json(type_name<T>(), raw.cdr);
+}
 
 }  // namespace quoin::topics

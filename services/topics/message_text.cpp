@@ -5,14 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <sstream>
+#include <utility>
 
-#include "services/topics/header.hpp"
+#include <nlohmann/json.hpp>
 
 namespace quoin::topics {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees_per_radian = 57.29577951308232;
 
 std::string fixed(double value, int digits) {
   std::array<char, 64> text{};
@@ -20,65 +27,141 @@ std::string fixed(double value, int digits) {
   return text.data();
 }
 
-constexpr double degrees_per_radian = 57.29577951308232;
+double real(const Json& message, const char* field) {
+  const Json& value = message.at(field);
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
 
-std::string header_text(const msg::Header& header) {
+std::int64_t nanoseconds(const Json& message, const char* field) {
+  return message.at(field).get<std::int64_t>();
+}
+
+std::uint64_t count(const Json& message, const char* field) {
+  return message.at(field).get<std::uint64_t>();
+}
+
+std::string text_of(const Json& message, const char* field) {
+  return message.at(field).get<std::string>();
+}
+
+bool is_our_header(const Json& header) {
+  return header.is_object() && header.contains("origins") && header.contains("stamp") &&
+         header.contains("frame") && header.contains("trace");
+}
+
+std::string header_text(const Json& header) {
   std::ostringstream text;
-  text << source(header) << " #" << sequence_number(header) << " stamp "
-       << fixed(static_cast<double>(header.stamp()) * 1e-9, 6) << ' ' << header.frame();
-  if (header.trace().size() > 1) {
-    const auto latency = header.trace().back().published() - header.trace().front().published();
+  const Json& origins = header.at("origins");
+  if (origins.empty()) {
+    text << " #0";
+  } else {
+    text << text_of(origins[0], "source") << " #" << count(origins[0], "sequence_number");
+  }
+  text << " stamp " << fixed(static_cast<double>(nanoseconds(header, "stamp")) * 1e-9, 6) << ' '
+       << text_of(header, "frame");
+  const Json& trace = header.at("trace");
+  if (trace.size() > 1) {
+    const std::int64_t latency =
+        nanoseconds(trace.back(), "published") - nanoseconds(trace.front(), "published");
     text << " +" << fixed(static_cast<double>(latency) * 1e-6, 2) << " ms";
   }
   text << ':';
   return text.str();
 }
 
-}  // namespace
-
-std::string to_text(const msg::Scan& message) {
-  const auto& ranges = message.ranges();
-  const auto valid = std::count_if(ranges.begin(), ranges.end(), [&](float range) {
-    return range > 0.0F && range >= message.range_min() && range <= message.range_max();
+std::string scan_text(const Json& scan) {
+  const Json& ranges = scan.at("ranges");
+  const double shortest = real(scan, "range_min");
+  const double longest = real(scan, "range_max");
+  // Not a number is what is infinite or not a number in the scan.
+  const auto valid = std::count_if(ranges.begin(), ranges.end(), [&](const Json& range) {
+    return range.is_number() && range > 0.0 && range >= shortest && range <= longest;
   });
   std::ostringstream text;
-  text << header_text(message.header()) << ' ' << ranges.size() << " rays, " << valid
-       << " valid, in " << fixed(message.duration(), 3) << " s";
+  text << ' ' << ranges.size() << " rays, " << valid << " valid, in "
+       << fixed(real(scan, "duration"), 3) << " s";
   return text.str();
 }
 
-std::string to_text(const msg::Segments& message) {
+std::string segments_text(const Json& message) {
   std::ostringstream text;
-  text << header_text(message.header()) << ' ' << message.segments().size() << " segments of "
-       << message.ranges().size() << " points:";
-  for (const msg::IndexRange& range : message.segments()) {
-    text << ' ' << range.begin() << ".." << range.end();
-  }
-  return text.str();
-}
-
-std::string to_text(const msg::Lines& message) {
-  std::ostringstream text;
-  text << header_text(message.header()) << ' ' << message.lines().size() << " lines:";
-  for (const msg::Line& line : message.lines()) {
-    text << " alpha " << fixed(line.alpha() * degrees_per_radian, 2) << " deg r "
-         << fixed(line.r(), 3) << " m (" << line.points() << " points);";
-  }
-  for (const msg::Failure& failure : message.failures()) {
-    text << " segment " << failure.segment() << ' ' << failure.reason() << ';';
+  text << ' ' << message.at("segments").size() << " segments of " << message.at("ranges").size()
+       << " points:";
+  for (const Json& range : message.at("segments")) {
+    text << ' ' << count(range, "begin") << ".." << count(range, "end");
   }
   return text.str();
 }
 
-std::string to_text(const msg::Corners& message) {
+std::string lines_text(const Json& message) {
   std::ostringstream text;
-  text << header_text(message.header()) << ' ' << message.corners().size() << " corners:";
-  for (const msg::Corner& corner : message.corners()) {
-    const double sigma = std::sqrt(0.5 * (corner.covariance_xx() + corner.covariance_yy()));
-    text << " (" << fixed(corner.x(), 3) << ", " << fixed(corner.y(), 3) << ") m sigma "
-         << fixed(sigma * 1e3, 2) << " mm;";
+  text << ' ' << message.at("lines").size() << " lines:";
+  for (const Json& line : message.at("lines")) {
+    text << " alpha " << fixed(real(line, "alpha") * degrees_per_radian, 2) << " deg r "
+         << fixed(real(line, "r"), 3) << " m (" << count(line, "points") << " points);";
+  }
+  for (const Json& failure : message.at("failures")) {
+    text << " segment " << count(failure, "segment") << ' ' << text_of(failure, "reason") << ';';
   }
   return text.str();
+}
+
+std::string corners_text(const Json& message) {
+  std::ostringstream text;
+  text << ' ' << message.at("corners").size() << " corners:";
+  for (const Json& corner : message.at("corners")) {
+    const double sigma =
+        std::sqrt(0.5 * (real(corner, "covariance_xx") + real(corner, "covariance_yy")));
+    text << " (" << fixed(real(corner, "x"), 3) << ", " << fixed(real(corner, "y"), 3)
+         << ") m sigma " << fixed(sigma * 1e3, 2) << " mm;";
+  }
+  return text.str();
+}
+
+// Appends " name value," for each single value and " name[length]," for each sequence.
+void append_fields(const Json& object, const std::string& prefix, std::string& text) {
+  for (const auto& [name, value] : object.items()) {
+    if (prefix.empty() && name == "header" && is_our_header(value)) continue;
+    if (value.is_object()) {
+      append_fields(value, prefix + name + '.', text);
+    } else if (value.is_array()) {
+      text += ' ' + prefix + name + '[' + std::to_string(value.size()) + "],";
+    } else {
+      text += ' ' + prefix + name + ' ' +
+              (value.is_string() ? value.get<std::string>() : value.dump()) + ',';
+    }
+  }
+}
+
+std::string fields_text(const Json& message) {
+  std::string text;
+  append_fields(message, "", text);
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+// Types with a text that says more than their fields would.
+constexpr std::pair<std::string_view, std::string (*)(const Json&)> texts[] = {
+    {"quoin::msg::Scan", scan_text},
+    {"quoin::msg::Segments", segments_text},
+    {"quoin::msg::Lines", lines_text},
+    {"quoin::msg::Corners", corners_text}};
+
+}  // namespace
+
+std::string to_text(std::string_view dds_type, const Json& message) {
+  std::string text;
+  if (message.contains("header") && is_our_header(message["header"])) {
+    text = header_text(message["header"]);
+  }
+  const auto* special =
+      std::ranges::find(texts, dds_type, [](const auto& row) { return row.first; });
+  text += special == std::end(texts) ? fields_text(message) : special->second(message);
+  if (text.starts_with(' ')) text.erase(0, 1);
+  // A name may come from anybody and goes to a terminal.
+  std::ranges::replace_if(
+      text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, '?');
+  return text;
 }
 
 }  // namespace quoin::topics

@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <idl/Corners.h>
-#include <idl/Lines.h>
-#include <idl/Scan.h>
-#include <idl/Segments.h>
 #include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace quoin::topics {
 
-// One line for people: number and stamp of the scan, time since the scan was published, content.
-[[nodiscard]] std::string to_text(const msg::Scan& message);
-[[nodiscard]] std::string to_text(const msg::Segments& message);
-[[nodiscard]] std::string to_text(const msg::Lines& message);
-[[nodiscard]] std::string to_text(const msg::Corners& message);
+/// One line for people: origin and stamp, time since the source published, content. `message` is
+/// what cdr_to_json gives for `dds_type`. A type without a text of its own is shown by its single
+/// values and the lengths of its sequences. Control characters become '?'.
+[[nodiscard]] std::string to_text(std::string_view dds_type, const nlohmann::ordered_json& message);
 
 }  // namespace quoin::topics

@@ -2,23 +2,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/topics/topic_types.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace quoin::topics {
 
-std::span<const TopicType> topic_types() {
-  static constexpr std::array<TopicType, 4> all{{{"scan", "quoin::msg::Scan", "sensor"},
-                                                 {"segments", "quoin::msg::Segments", "feature"},
-                                                 {"lines", "quoin::msg::Lines", "feature"},
-                                                 {"corners", "quoin::msg::Corners", "feature"}}};
-  return all;
+namespace {
+
+constexpr std::array table{
+    TopicType{"scan", "quoin::msg::Scan", "sensor", "Scan.idl"},
+    TopicType{"segments", "quoin::msg::Segments", "feature", "Segments.idl"},
+    TopicType{"lines", "quoin::msg::Lines", "feature", "Lines.idl"},
+    TopicType{"corners", "quoin::msg::Corners", "feature", "Corners.idl"},
+};
+
+const TopicType* find(std::string_view TopicType::*column, std::string_view value) {
+  const auto row = std::ranges::find(table, value, column);
+  return row == table.end() ? nullptr : &*row;
 }
 
-const TopicType* find_topic_type(std::string_view name) {
-  for (const TopicType& type : topic_types()) {
-    if (type.name == name) return &type;
-  }
-  return nullptr;
+}  // namespace
+
+std::span<const TopicType> topic_types() { return table; }
+
+const TopicType* find_topic_type(std::string_view name) { return find(&TopicType::name, name); }
+
+const TopicType* find_topic_type_by_dds_type(std::string_view dds_type) {
+  return find(&TopicType::dds_type, dds_type);
+}
+
+std::string_view idl_text(std::string_view file) {
+  const auto files = idl_files();
+  const auto found = std::ranges::find(files, file, &IdlFile::name);
+  return found == files.end() ? std::string_view() : found->text;
 }
 
 }  // namespace quoin::topics

@@ -44,7 +44,14 @@ deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
 deny deploy/doctor 'idl/|services/|deploy/quoin/' "the doctor is told what was heard on the network"
 deny deploy/keys 'idl/|services/|yaml-cpp' "what makes keys needs no DDS"
 deny deploy/methods 'idl/|services/' "what describes methods needs no DDS"
-deny services/messages "$dds|services/runtime/" "message conversion needs no DDS"
+deny services/topics "$dds|services/runtime/" "topics need no DDS; one file knows its serialisation" \
+  '^services/topics/cdr_codec\.cpp:.*<fastcdr/'
+deny services 'fastdds|fastrtps|.*PubSubTypes\.h' "only services/runtime/dds names Fast DDS" \
+  '^services/runtime/dds/'
+for file in topic_types cdr_json idl_parser message_text; do
+  deny "services/topics/$file.hpp" 'idl/' "the table, JSON and text need no generated code"
+  deny "services/topics/$file.cpp" 'idl/' "the table, JSON and text need no generated code"
+done
 for stage in segmentation line_fitting corner_estimation; do
   deny "services/$stage" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"
 done

@@ -83,9 +83,11 @@ int main(int argc, char** argv) {
   float ranges[rays];
   fill_rays(bearings, ranges);
   // The source's entry in the trace. Its incarnation tells a restarted source from the one before.
-  quoin_msg_StageTrace trace = {.service = service, .method = "", .incarnation = (uint64_t)now()};
+  quoin_msg_StageTrace trace = {
+      .service = service, .input = "", .method = "", .incarnation = (uint64_t)now()};
+  quoin_msg_Origin origin = {.source = service, .incarnation = trace.incarnation, .parts = 1};
   quoin_msg_Scan scan = {
-      .header = {.sensor = service,
+      .header = {.origins = {._maximum = 1, ._length = 1, ._buffer = &origin},
                  .frame = "laser",
                  .trace = {._maximum = 1, ._length = 1, ._buffer = &trace}},
       .sensor_model = {.range_stddev = 0.010, .bearing_stddev = 0.0, .range_bias_stddev = 0.0},
@@ -99,7 +101,7 @@ int main(int argc, char** argv) {
   for (int32_t i = 0; i < count; ++i) {
     scan.header.stamp = now();
     dds_sleepfor(DDS_MSECS(50));  // the revolution
-    scan.header.sequence_number = (uint64_t)i;
+    origin.sequence_number = (uint64_t)i;
     trace.index = (uint64_t)i;
     trace.received = trace.published = now();
     const dds_return_t written = dds_write(writer, &scan);

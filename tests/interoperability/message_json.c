@@ -10,8 +10,18 @@ static void write_floats(JsonWriter* writer, const char* name, const dds_sequenc
 
 static void write_header(JsonWriter* writer, const quoin_msg_Header* header) {
   json_begin_object(writer, "header");
-  json_string(writer, "sensor", header->sensor);
-  json_unsigned(writer, "sequence_number", header->sequence_number);
+  json_begin_array(writer, "origins");
+  for (uint32_t i = 0; i < header->origins._length; ++i) {
+    const quoin_msg_Origin* origin = &header->origins._buffer[i];
+    json_begin_object(writer, NULL);
+    json_string(writer, "source", origin->source);
+    json_unsigned(writer, "incarnation", origin->incarnation);
+    json_unsigned(writer, "sequence_number", origin->sequence_number);
+    json_unsigned(writer, "part", origin->part);
+    json_unsigned(writer, "parts", origin->parts);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
   json_signed(writer, "stamp", header->stamp);
   json_string(writer, "frame", header->frame);
   json_begin_array(writer, "trace");
@@ -19,6 +29,7 @@ static void write_header(JsonWriter* writer, const quoin_msg_Header* header) {
     const quoin_msg_StageTrace* stage = &header->trace._buffer[i];
     json_begin_object(writer, NULL);
     json_string(writer, "service", stage->service);
+    json_string(writer, "input", stage->input);
     json_string(writer, "method", stage->method);
     json_unsigned(writer, "incarnation", stage->incarnation);
     json_unsigned(writer, "index", stage->index);

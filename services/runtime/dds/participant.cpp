@@ -10,6 +10,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "services/keys/key_check.hpp"
+#include "services/runtime/dds/cdr_type_impl.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 #include "services/runtime/dds/network_qos_impl.hpp"
 #include "services/runtime/dds/participant_impl.hpp"
@@ -88,14 +89,27 @@ std::vector<std::string> Participant::written_topics() const {
   return impl_->endpoints->written_topics();
 }
 
-dds::Topic* Participant::Impl::topic(const std::string& name, const dds::TypeSupport& type) {
+dds::Topic* Participant::Impl::topic(const std::string& name, const std::string& type_name,
+                                     const topics::CdrCodec* codec) {
+  const bool keyed = codec != nullptr && codec->keyed;
+  const dds::TypeSupport registered = participant->find_type(type_name);
+  if (registered.empty()) {
+    if (type_support(type_name, codec).register_type(participant) != ReturnCode_t::RETCODE_OK) {
+      throw std::runtime_error("cannot register DDS type " + type_name);
+    }
+  } else if (registered->m_isGetKeyDefined != keyed) {
+    throw std::runtime_error("DDS type " + type_name +
+                             " is in use both with and without its key; " +
+                             "raw readers and writers are for types without key");
+  }
   if (auto* known = participant->lookup_topicdescription(name)) {
+    if (known->get_type_name() != type_name) {
+      throw std::runtime_error("DDS topic '" + name + "' has the type " + known->get_type_name() +
+                               " in this participant, not " + type_name);
+    }
     return dynamic_cast<dds::Topic*>(known);
   }
-  if (type.register_type(participant) != ReturnCode_t::RETCODE_OK) {
-    throw std::runtime_error("cannot register DDS type " + type.get_type_name());
-  }
-  dds::Topic* made = participant->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+  dds::Topic* made = participant->create_topic(name, type_name, dds::TOPIC_QOS_DEFAULT);
   if (made == nullptr) throw std::runtime_error("cannot create DDS topic '" + name + "'");
   return made;
 }

@@ -11,10 +11,10 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include "services/runtime/dds/discovery.hpp"
 #include "services/runtime/dds/participant.hpp"
+#include "services/topics/cdr_codec.hpp"
 
 namespace quoin::runtime {
 
@@ -26,9 +26,10 @@ struct Participant::Impl {
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
 
-  /// The topic of this name, made at its first use. Throws std::runtime_error.
-  eprosima::fastdds::dds::Topic* topic(const std::string& name,
-                                       const eprosima::fastdds::dds::TypeSupport& type);
+  /// The topic of this name, made at its first use, as its type is; `codec` is null for raw
+  /// endpoints. Throws std::runtime_error, also when the topic has another type.
+  eprosima::fastdds::dds::Topic* topic(const std::string& name, const std::string& type_name,
+                                       const topics::CdrCodec* codec);
 };
 
 /// Number of peers of an endpoint, as its listener sees it.

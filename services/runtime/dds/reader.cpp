@@ -8,6 +8,7 @@
 #include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include "services/runtime/dds/cdr_type_impl.hpp"
 #include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/reader_impl.hpp"
 
@@ -17,12 +18,12 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
-                       const TopicQos& qos)
+ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+                       const topics::CdrCodec* codec, const TopicQos& qos)
     : participant(owner), topic_name(topic) {
-  reader =
-      owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type), reader_qos(qos),
-                                                 this, dds::StatusMask::subscription_matched());
+  reader = owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type_name, codec),
+                                                      reader_qos(qos), this,
+                                                      dds::StatusMask::subscription_matched());
   if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
   reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
 }
@@ -36,7 +37,10 @@ void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
   match.set_matched(status.current_count);
 }
 
-ReaderBase::ReaderBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ReaderBase::ReaderBase(Participant& participant, const std::string& topic,
+                       const std::string& type_name, const topics::CdrCodec* codec,
+                       const TopicQos& qos)
+    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
 ReaderBase::~ReaderBase() = default;
 
 std::size_t ReaderBase::matched() const { return impl_->match.matched(); }
@@ -50,19 +54,27 @@ std::vector<std::string> ReaderBase::incompatible_qos() const {
                                                                 policies_of(*impl_->reader));
 }
 
-bool ReaderBase::take_raw(void* sample) {
+bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
+  CdrSample sample{message, codec};
   dds::SampleInfo info;
-  while (impl_->reader->take_next_sample(sample, &info) == ReturnCode_t::RETCODE_OK) {
+  while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
     if (!info.valid_data) continue;  // tells of an instance that ended
     const auto& writer = info.sample_identity.writer_guid();
     std::uint64_t hash = 14695981039346656037U;  // FNV-1a
     for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
     for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
     last_sample_ = {hash, info.sample_identity.sequence_number().to64long(),
-                    info.source_timestamp.to_ns()};
+                    info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()};
     return true;
   }
   return false;
+}
+
+bool RawReader::take(topics::RawMessage& message) {
+  if (!take_sample(&message, nullptr)) return false;
+  message.published = last_sample().sent;
+  message.received = last_sample().received;
+  return true;
 }
 
 struct WaitSet::Impl {

@@ -11,6 +11,7 @@
 
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
+#include "services/topics/cdr_codec.hpp"
 
 namespace quoin::runtime {
 
@@ -31,6 +32,7 @@ class ReaderBase {
     std::uint64_t writer = 0;           ///< another one for another writer
     std::uint64_t sequence_number = 0;  ///< of the sample among those of that writer, from 1
     std::int64_t sent = 0;              ///< [ns since the Unix epoch], by the writer's clock
+    std::int64_t received = 0;          ///< [ns since the Unix epoch], by the clock of this host
   };
   [[nodiscard]] const Sample& last_sample() const { return last_sample_; }
 
@@ -38,8 +40,11 @@ class ReaderBase {
   [[nodiscard]] Impl& impl() { return *impl_; }
 
  protected:
-  ReaderBase(std::unique_ptr<Impl> impl);
-  bool take_raw(void* sample);
+  /// `codec` is null for raw messages.
+  ReaderBase(Participant& participant, const std::string& topic, const std::string& type_name,
+             const topics::CdrCodec* codec, const TopicQos& qos);
+  /// The next sample into a message of the codec's type, or into a topics::RawMessage.
+  bool take_sample(void* message, const topics::CdrCodec* codec);
 
  private:
   std::unique_ptr<Impl> impl_;
@@ -51,9 +56,24 @@ class ReaderBase {
 template <class T>
 class Reader : public ReaderBase {
  public:
-  Reader(Participant& participant, const std::string& topic, const TopicQos& qos);
+  Reader(Participant& participant, const std::string& topic, const TopicQos& qos)
+      : ReaderBase(participant, topic, topics::cdr_codec<T>().type_name, &topics::cdr_codec<T>(),
+                   qos) {}
   /// Next message into `message`, whose memory is reused; false when there is none.
-  bool take(T& message) { return take_raw(&message); }
+  bool take(T& message) { return take_sample(&message, &topics::cdr_codec<T>()); }
+};
+
+/// Reads the bytes of messages of any type, of which only the name needs to be known. It must be a
+/// type without key: a raw reader matches no writer of a type that has one. Throws
+/// std::runtime_error when DDS refuses to create the entities.
+class RawReader : public ReaderBase {
+ public:
+  RawReader(Participant& participant, const std::string& topic, const std::string& dds_type,
+            const TopicQos& qos)
+      : ReaderBase(participant, topic, dds_type, nullptr, qos) {}
+  /// Next message into `message`, whose memory is reused; false when there is none. The bytes are
+  /// as they were sent, by whomever: decode, read_header and cdr_to_json check them.
+  bool take(topics::RawMessage& message);
 };
 
 /// Waits for any of several readers, or to be woken.

@@ -13,8 +13,8 @@
 namespace quoin::runtime {
 
 struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
-  Impl(Participant& owner, const std::string& topic,
-       const eprosima::fastdds::dds::TypeSupport& type, const TopicQos& qos);
+  Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+       const topics::CdrCodec* codec, const TopicQos& qos);
   ~Impl() override;
 
   void on_subscription_matched(

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "services/runtime/dds/cdr_type_impl.hpp"
 #include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/writer_impl.hpp"
 
@@ -13,13 +14,13 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const dds::TypeSupport& type,
-                       const TopicQos& qos)
+WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+                       const topics::CdrCodec* codec, const TopicQos& qos)
     : participant(owner), topic_name(topic) {
   // The listener is given at creation: one that is set later misses the first match.
-  writer =
-      owner.impl().publisher->create_datawriter(owner.impl().topic(topic, type), writer_qos(qos),
-                                                this, dds::StatusMask::publication_matched());
+  writer = owner.impl().publisher->create_datawriter(owner.impl().topic(topic, type_name, codec),
+                                                     writer_qos(qos), this,
+                                                     dds::StatusMask::publication_matched());
   if (writer == nullptr) throw std::runtime_error("cannot create DDS writer for '" + topic + "'");
 }
 
@@ -32,7 +33,10 @@ void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
   match.set_matched(status.current_count);
 }
 
-WriterBase::WriterBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WriterBase::WriterBase(Participant& participant, const std::string& topic,
+                       const std::string& type_name, const topics::CdrCodec* codec,
+                       const TopicQos& qos)
+    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
 WriterBase::~WriterBase() = default;
 
 std::size_t WriterBase::matched() const { return impl_->match.matched(); }
@@ -56,6 +60,14 @@ std::vector<std::string> WriterBase::incompatible_qos() const {
 
 void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
 
-bool WriterBase::write_raw(void* sample) { return impl_->writer->write(sample); }
+bool WriterBase::write_sample(const void* message, const topics::CdrCodec* codec) {
+  CdrSample sample{const_cast<void*>(message), codec};  // DDS only reads it
+  return impl_->writer->write(&sample);
+}
+
+bool RawWriter::write(const topics::RawMessage& message) {
+  return topics::is_plain_cdr(message.cdr.data(), message.cdr.size()) &&
+         write_sample(&message, nullptr);
+}
 
 }  // namespace quoin::runtime

@@ -10,6 +10,7 @@
 
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
+#include "services/topics/cdr_codec.hpp"
 
 namespace quoin::runtime {
 
@@ -33,9 +34,11 @@ class WriterBase {
   struct Impl;
 
  protected:
-  WriterBase(std::unique_ptr<Impl> impl);
+  /// `codec` is null for raw messages.
+  WriterBase(Participant& participant, const std::string& topic, const std::string& type_name,
+             const topics::CdrCodec* codec, const TopicQos& qos);
   /// False when the sample could not be taken (lossless: the history stayed full for a second).
-  bool write_raw(void* sample);
+  bool write_sample(const void* message, const topics::CdrCodec* codec);
 
  private:
   std::unique_ptr<Impl> impl_;
@@ -46,8 +49,22 @@ class WriterBase {
 template <class T>
 class Writer : public WriterBase {
  public:
-  Writer(Participant& participant, const std::string& topic, const TopicQos& qos);
-  bool write(const T& message) { return write_raw(const_cast<T*>(&message)); }
+  Writer(Participant& participant, const std::string& topic, const TopicQos& qos)
+      : WriterBase(participant, topic, topics::cdr_codec<T>().type_name, &topics::cdr_codec<T>(),
+                   qos) {}
+  bool write(const T& message) { return write_sample(&message, &topics::cdr_codec<T>()); }
+};
+
+/// Writes messages of any type without key, as bytes. Throws std::runtime_error when DDS refuses to
+/// create the entities. One thread at a time writes.
+class RawWriter : public WriterBase {
+ public:
+  RawWriter(Participant& participant, const std::string& topic, const std::string& dds_type,
+            const TopicQos& qos)
+      : WriterBase(participant, topic, dds_type, nullptr, qos) {}
+  /// Only the bytes are sent, filled up with zeros to a multiple of four; the times are those of
+  /// now. False, too, when they do not begin as XCDR1 does; the rest is not checked.
+  bool write(const topics::RawMessage& message);
 };
 
 }  // namespace quoin::runtime

@@ -13,8 +13,8 @@
 namespace quoin::runtime {
 
 struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
-  Impl(Participant& owner, const std::string& topic,
-       const eprosima::fastdds::dds::TypeSupport& type, const TopicQos& qos);
+  Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+       const topics::CdrCodec* codec, const TopicQos& qos);
   ~Impl() override;
 
   void on_publication_matched(

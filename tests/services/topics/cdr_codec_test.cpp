@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/topics/cdr_codec.hpp"
+
+#include <cmath>
+#include <idl/Control.h>
+#include <idl/Corners.h>
+#include <idl/Lines.h>
+#include <idl/Scan.h>
+#include <idl/Segments.h>
+#include <idl/Status.h>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "services/topics/header.hpp"
+#include "services/topics/message_json.hpp"
+#include "services/topics/topic_types.hpp"
+
+namespace quoin::topics {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void fill(msg::Header& header) {
+  set_origin(header, "front", 5, 42);
+  header.stamp(-7);
+  header.frame("laser");
+  header.trace().resize(1);
+  header.trace()[0].service("front");
+  header.trace()[0].input("in");
+  header.trace()[0].method("none");
+  header.trace()[0].incarnation(5);
+  header.trace()[0].index(std::numeric_limits<std::uint64_t>::max());
+  header.trace()[0].received(3);
+  header.trace()[0].published(4);
+}
+
+const char* const header_json =
+    R"("header":{"origins":[{"source":"front","incarnation":5,"sequence_number":42,"part":0,)"
+    R"("parts":1}],"stamp":-7,"frame":"laser","trace":[{"service":"front","input":"in",)"
+    R"("method":"none","incarnation":5,"index":18446744073709551615,"received":3,"published":4}]})";
+
+const char* const model_json =
+    R"("sensor_model":{"range_stddev":0.01,"bearing_stddev":0.002,"range_bias_stddev":0.0})";
+
+void fill(msg::SensorModel& model) {
+  model.range_stddev(0.01);
+  model.bearing_stddev(0.002);
+}
+
+msg::Scan a_scan() {
+  msg::Scan scan;
+  fill(scan.header());
+  fill(scan.sensor_model());
+  scan.range_min(0.1F);
+  scan.range_max(40.0F);
+  scan.bearings({-0.2F, 0.3F, 1e-7F});
+  scan.ranges({INFINITY, NAN, 1.7F});
+  return scan;
+}
+
+TEST(CdrCodec, JsonOfAScan) {
+  EXPECT_EQ(to_json(a_scan()).dump(),
+            std::string("{") + header_json + "," + model_json +
+                R"(,"range_min":0.1,"range_max":40.0,"duration":0.0,"bearings":[-0.2,0.3,1e-07],)"
+                R"("ranges":[null,null,1.7],"qualities":[],"time_offsets":[]})");
+}
+
+TEST(CdrCodec, JsonOfSegments) {
+  msg::Segments segments;
+  fill(segments.header());
+  fill(segments.sensor_model());
+  segments.scan_points(720);
+  segments.bearings({0.5F});
+  segments.ranges({2.5F});
+  segments.segments().resize(1);
+  segments.segments()[0].end(1);
+  EXPECT_EQ(to_json(segments).dump(), std::string("{") + header_json + "," + model_json +
+                                          R"(,"scan_points":720,"bearings":[0.5],"ranges":[2.5],)"
+                                          R"("segments":[{"begin":0,"end":1}]})");
+}
+
+TEST(CdrCodec, JsonOfLines) {
+  msg::Lines lines;
+  fill(lines.header());
+  fill(lines.sensor_model());
+  lines.covariance_mode("propagated");
+  lines.lines().resize(1);
+  lines.lines()[0].alpha(0.25);
+  lines.lines()[0].r(2.0);
+  lines.lines()[0].start().x(1.0);
+  lines.lines()[0].end().y(-1.0);
+  lines.lines()[0].points(9);
+  lines.lines()[0].chi_square(NAN);
+  lines.failures().resize(1);
+  lines.failures()[0].segment(1);
+  lines.failures()[0].reason("too_few_points");
+  EXPECT_EQ(to_json(lines).dump(),
+            std::string("{") + header_json + "," + model_json +
+                R"(,"covariance_mode":"propagated","lines":[{"alpha":0.25,"r":2.0,)"
+                R"("covariance_alpha":0.0,"covariance_alpha_r":0.0,"covariance_r":0.0,)"
+                R"("start":{"x":1.0,"y":0.0},"end":{"x":0.0,"y":-1.0},"points":9,)"
+                R"("chi_square":null,"segment":0}],)"
+                R"("failures":[{"segment":1,"reason":"too_few_points"}]})");
+}
+
+TEST(CdrCodec, JsonOfCorners) {
+  msg::Corners corners;
+  fill(corners.header());
+  corners.covariance_mode("as_published");
+  corners.corners().resize(1);
+  corners.corners()[0].x(1.5);
+  corners.corners()[0].extrapolation(0.125);
+  corners.corners()[0].second_line(1);
+  EXPECT_EQ(to_json(corners).dump(),
+            std::string("{") + header_json +
+                R"(,"covariance_mode":"as_published","corners":[{"x":1.5,"y":0.0,)"
+                R"("covariance_xx":0.0,"covariance_xy":0.0,"covariance_yy":0.0,"ellipse_area":0.0,)"
+                R"("ellipse95_major":0.0,"ellipse95_minor":0.0,"ellipse95_direction":0.0,)"
+                R"("angle":0.0,"gap":0.0,"extrapolation":0.125,"first_line":0,"second_line":1}]})");
+}
+
+TEST(CdrCodec, JsonOfTypesOutsideTheTable) {
+  msg::ServiceStatus status;
+  status.state(msg::STATE_ACTIVE);
+  status.incompatible_qos({"a", ""});
+  EXPECT_EQ(to_json(status)["state"], "STATE_ACTIVE");
+  EXPECT_EQ(to_json(status)["incompatible_qos"], Json({"a", ""}));
+  msg::ControlRequest request;
+  request.state({0, 255});
+  request.drop_state(true);
+  EXPECT_EQ(to_json(request)["state"], Json({0, 255}));
+  EXPECT_EQ(to_json(request)["drop_state"], true);
+}
+
+TEST(CdrCodec, TypesHaveTheNamesThatTheTableHas) {
+  EXPECT_EQ(type_name<msg::Scan>(), find_topic_type("scan")->dds_type);
+  EXPECT_EQ(type_name<msg::Segments>(), find_topic_type("segments")->dds_type);
+  EXPECT_EQ(type_name<msg::Lines>(), find_topic_type("lines")->dds_type);
+  EXPECT_EQ(type_name<msg::Corners>(), find_topic_type("corners")->dds_type);
+  EXPECT_EQ(cdr_codec<msg::Scan>().type_name, "quoin::msg::Scan");
+  EXPECT_FALSE(cdr_codec<msg::Scan>().keyed);
+  EXPECT_TRUE(cdr_codec<msg::ServiceStatus>().keyed);
+}
+
+TEST(CdrCodec, BytesAreThoseOfTheStandard) {
+  msg::Failure failure;
+  failure.segment(7);
+  failure.reason("few");
+  RawMessage raw;
+  encode(failure, raw);
+  const std::vector<int> expected{0, 1, 0, 0, 7, 0, 0, 0, 4, 0, 0, 0, 'f', 'e', 'w', 0};
+  ASSERT_EQ(raw.cdr.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(std::to_integer<int>(raw.cdr[i]), expected[i]) << i;
+  }
+  failure.reason("");
+  encode(failure, raw);
+  EXPECT_EQ(raw.cdr.size(), 16U) << "13 bytes, filled up";
+}
+
+TEST(CdrCodec, AMessageComesBackAsItWas) {
+  msg::Scan scan = a_scan();
+  scan.ranges({1.0F});  // NaN would not be equal to itself
+  RawMessage raw;
+  encode(scan, raw);
+  msg::Scan back;
+  ASSERT_TRUE(decode(raw, back));
+  EXPECT_TRUE(back == scan);
+  msg::Header header;
+  ASSERT_TRUE(read_header(raw, header));
+  EXPECT_TRUE(header == scan.header());
+}
+
+TEST(CdrCodec, TooFewBytesAreNoMessageAndNoHeader) {
+  RawMessage whole;
+  encode(a_scan(), whole);
+  RawMessage headers;
+  encode(a_scan().header(), headers);
+  RawMessage cut;
+  msg::Scan scan;
+  msg::Header header;
+  // What is left out at the end may be padding, of a sequence without elements.
+  for (std::size_t size = 0; size < whole.cdr.size(); ++size) {
+    cut.cdr.assign(whole.cdr.begin(), whole.cdr.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_FALSE(decode(cut, scan)) << size;
+    EXPECT_EQ(read_header(cut, header), size >= headers.cdr.size()) << size;
+  }
+}
+
+TEST(CdrCodec, BytesOfStrangersDoNoHarm) {
+  RawMessage whole;
+  encode(a_scan(), whole);
+  std::mt19937 random(3);
+  msg::Scan scan;
+  msg::Header header;
+  for (int round = 0; round < 20'000; ++round) {
+    RawMessage raw = whole;
+    for (int change = 0; change < 4; ++change) {
+      raw.cdr[random() % raw.cdr.size()] = static_cast<std::byte>(random());
+    }
+    (void)decode(raw, scan);
+    (void)read_header(raw, header);
+  }
+  RawMessage other_representation = whole;
+  other_representation.cdr[1] = std::byte{7};
+  EXPECT_FALSE(decode(other_representation, scan));
+  EXPECT_FALSE(read_header(other_representation, header));
+}
+
+}  // namespace
+}  // namespace quoin::topics

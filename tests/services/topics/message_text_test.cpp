@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/topics/message_text.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace quoin::topics {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Json header = Json::parse(R"({
+  "origins": [{"source": "front", "incarnation": 1, "sequence_number": 42, "part": 0, "parts": 1}],
+  "stamp": 1500000000, "frame": "laser",
+  "trace": [{"published": 1000000000}, {"published": 1001250000}]})");
+
+Json with_header(const char* fields) {
+  Json message = Json::parse(fields);
+  message["header"] = header;
+  return message;
+}
+
+TEST(MessageText, ScanCountsItsValidRanges) {
+  EXPECT_EQ(to_text("quoin::msg::Scan",
+                    with_header(R"({"range_min": 0.1, "range_max": 40.0, "duration": 0.1,
+                                    "ranges": [0.0, 0.1, 1.0, 40.0, 41.0, null]})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 6 rays, 3 valid, in 0.100 s");
+}
+
+TEST(MessageText, SegmentsLinesAndCorners) {
+  EXPECT_EQ(to_text("quoin::msg::Segments",
+                    with_header(R"({"ranges": [1, 1, 1], "segments": [{"begin": 0, "end": 3}]})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 1 segments of 3 points: 0..3");
+  EXPECT_EQ(to_text("quoin::msg::Lines",
+                    with_header(R"({"lines": [{"alpha": 1.5707963267948966, "r": 2.0, "points": 9}],
+                                    "failures": [{"segment": 1, "reason": "too_few_points"}]})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 1 lines: alpha 90.00 deg r 2.000 m "
+            "(9 points); segment 1 too_few_points;");
+  EXPECT_EQ(to_text("quoin::msg::Corners",
+                    with_header(R"({"corners": [{"x": 1.0, "y": -2.0, "covariance_xx": 1e-6,
+                                                 "covariance_yy": 1e-6}]})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 1 corners: (1.000, -2.000) m sigma 1.00 mm;");
+}
+
+TEST(MessageText, AnyOtherTypeShowsItsValues) {
+  EXPECT_EQ(to_text("quoin::msg::New", with_header(R"({"pose": {"x": 1.5, "frame": "map"},
+                                                       "points": [1, 2, 3], "valid": true})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: pose.x 1.5, pose.frame map, points[3], "
+            "valid true");
+  EXPECT_EQ(to_text("sensor_msgs::msg::dds_::Range_",
+                    Json::parse(R"({"header": {"frame_id": "a"}, "range": null})")),
+            "header.frame_id a, range null");
+}
+
+TEST(MessageText, ControlCharactersDoNotReachTheTerminal) {
+  Json message{{"header", header}};
+  message["header"]["frame"] = "\x1b[2J\n";
+  EXPECT_EQ(to_text("quoin::msg::New", message), "front #42 stamp 1.500000 ?[2J? +1.25 ms:");
+}
+
+}  // namespace
+}  // namespace quoin::topics
