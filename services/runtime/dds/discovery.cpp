@@ -3,14 +3,18 @@
 #include "services/runtime/dds/discovery.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <string_view>
 #include <utility>
 
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDescription.hpp>
+#include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/resources/TimedEvent.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 
 namespace quoin::runtime {
@@ -23,6 +27,41 @@ namespace {
 // Names come from anybody in the domain and go to terminals and heartbeats.
 constexpr std::size_t longest_name = 80;
 constexpr std::size_t most_misfits = 32;
+
+// What user data begins with that announces topics. A number of 32 bits for each follows, least
+// significant byte first: the names of all topics of a deployment would not fit into a datagram,
+// and two that share a number cost a start no more than a wait for nobody.
+constexpr std::string_view announcement_begin = "quoin observes:";
+constexpr std::size_t most_announced = 128;
+
+// How many leases a reader may be silent that a living discovery server knows. The server itself
+// drops it after one.
+constexpr int leases_when_vouched = 3;
+
+/// FNV-1a.
+std::uint32_t announced_topic(const std::string& topic) {
+  std::uint32_t hash = 2166136261U;
+  for (const char character : topic) {
+    hash = (hash ^ static_cast<std::uint8_t>(character)) * 16777619U;
+  }
+  return hash;
+}
+
+/// Of anybody's user data: none when it is no announcement.
+std::set<std::uint32_t> announced_topics(const std::vector<std::uint8_t>& data) {
+  std::set<std::uint32_t> topics;
+  if (data.size() < announcement_begin.size() ||
+      !std::equal(announcement_begin.begin(), announcement_begin.end(), data.begin())) {
+    return topics;
+  }
+  for (std::size_t i = announcement_begin.size();
+       i + 4 <= data.size() && topics.size() < most_announced; i += 4) {
+    topics.insert(data[i] | static_cast<std::uint32_t>(data[i + 1]) << 8U |
+                  static_cast<std::uint32_t>(data[i + 2]) << 16U |
+                  static_cast<std::uint32_t>(data[i + 3]) << 24U);
+  }
+  return topics;
+}
 
 std::string printable(const std::string& text) {
   std::string result = text.substr(0, longest_name);
@@ -122,7 +161,25 @@ std::array<std::uint8_t, 16> key_of(const rtps::GUID_t& guid) {
   return key;
 }
 
+// Discovery data belong to Fast DDS, which lends them to its listeners read-only, but asks for no
+// more than this flag when the timer of a lease ends.
+void set_lease_check(const rtps::ParticipantProxyData& participant, bool wanted) {
+  const_cast<rtps::ParticipantProxyData&>(participant).should_check_lease_duration = wanted;
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> observes_announcement(const std::vector<std::string>& topics) {
+  if (topics.empty()) return {};
+  std::vector<std::uint8_t> data(announcement_begin.begin(), announcement_begin.end());
+  for (std::size_t i = 0; i < std::min(topics.size(), most_announced); ++i) {
+    const std::uint32_t number = announced_topic(topics[i]);
+    for (unsigned shift = 0; shift < 32U; shift += 8U) {
+      data.push_back(static_cast<std::uint8_t>(number >> shift));
+    }
+  }
+  return data;
+}
 
 EndpointPolicies policies_of(const dds::DataWriter& writer) {
   return own(writer.get_qos(), writer.get_topic()->get_type_name());
@@ -137,11 +194,11 @@ KnownEndpoints::KnownEndpoints(std::string own_name) : own_name_(std::move(own_n
 // Without the namespace that it shares with this participant.
 std::string KnownEndpoints::name_of(const Prefix& participant) const {
   const auto known = participants_.find(participant);
-  if (known == participants_.end() || known->second.empty()) return "a participant without name";
+  if (known == participants_.end() || known->second.name.empty()) return "a participant without name";
   const std::size_t slash = own_name_.rfind('/');
   const std::string name_space = own_name_.substr(0, slash == std::string::npos ? 0 : slash + 1);
-  return known->second.starts_with(name_space) ? known->second.substr(name_space.size())
-                                               : known->second;
+  const std::string& name = known->second.name;
+  return name.starts_with(name_space) ? name.substr(name_space.size()) : name;
 }
 
 std::vector<std::string> KnownEndpoints::misfits_of_writer(const std::string& topic,
@@ -177,18 +234,89 @@ std::vector<std::string> KnownEndpoints::written_topics() const {
   return topics;
 }
 
+std::vector<std::string> KnownEndpoints::awaited_observers(const std::string& topic,
+                                                           const EndpointPolicies& offered,
+                                                           const std::set<Prefix>& matched) const {
+  std::vector<std::string> names;
+  const std::uint32_t wanted = announced_topic(topic);
+  const std::lock_guard lock(mutex_);
+  std::set<Prefix> unfit;
+  for (const auto& [guid, reader] : readers_) {
+    if (reader.topic == topic && !misfits(offered, reader.policies).empty()) {
+      unfit.insert(reader.participant);
+    }
+  }
+  for (const auto& [prefix, known] : participants_) {
+    if (!known.observes.contains(wanted)) continue;
+    if (!matched.contains(prefix) && !unfit.contains(prefix)) names.push_back(name_of(prefix));
+  }
+  return names;
+}
+
+// DDS checks the lease of all others itself, except among clients of a discovery server.
+bool KnownEndpoints::checks_lease(const Known& known) {
+  return known.proxy->should_check_lease_duration && !known.lease_check_added;
+}
+
+void KnownEndpoints::forget(const rtps::ParticipantProxyData& participant) {
+  const auto found = participants_.find(prefix_of(participant.m_guid));
+  if (found == participants_.end()) return;
+  const bool was_server = checks_lease(found->second);
+  // A timer that ends now would find the place of this participant empty, and abort.
+  if (!was_server) set_lease_check(participant, false);
+  participants_.erase(found);
+  const auto lives = [](const auto& entry) { return checks_lease(entry.second); };
+  if (!was_server || std::any_of(participants_.begin(), participants_.end(), lives)) return;
+  for (auto& [prefix, known] : participants_) known.vouched = false;
+}
+
+std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& participants) {
+  std::vector<std::string> silent;
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(mutex_);
+  for (const Prefix& prefix : participants) {
+    const auto found = participants_.find(prefix);
+    if (found == participants_.end()) continue;
+    Known& known = found->second;
+    const auto lease = std::chrono::nanoseconds(known.proxy->m_leaseDuration.to_ns());
+    const auto silence = now - known.proxy->last_received_message_tm();
+    if (silence > lease) silent.push_back(name_of(prefix));
+    if (checks_lease(known)) continue;
+    // Of a participant that a discovery server knows, its end is reported by the server, and what
+    // is dropped here the server never brings back. A server that was restarted within the lease
+    // looks like one that lives, though, and knows nothing of the dead.
+    const bool drop = silence > (known.vouched ? leases_when_vouched : 1) * lease;
+    // The check goes on for as long as it is wanted, and would end a pair that has nothing to say
+    // to each other.
+    known.lease_check_added = drop;
+    set_lease_check(*known.proxy, drop);
+    if (drop) {
+      known.proxy->lease_duration_event->update_interval_millisec(0.0);
+      known.proxy->lease_duration_event->restart_timer();
+    }
+  }
+  return silent;
+}
+
 void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
                                               rtps::ParticipantDiscoveryInfo&& info) {
   const std::lock_guard lock(mutex_);
   const Prefix prefix = prefix_of(info.info.m_guid);
+  if (getenv("OBS_TRACE")) {
+    fprintf(stderr, "%s: %lld status %d of %s lease %d\n", own_name_.c_str(), (long long)std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count() % 1000000, (int)info.status, info.info.m_participantName.c_str(), (int)info.info.should_check_lease_duration);
+  }
   if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
       info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
-    participants_.erase(prefix);
+    forget(info.info);
     const auto theirs = [&](const auto& entry) { return entry.second.participant == prefix; };
     std::erase_if(writers_, theirs);
     std::erase_if(readers_, theirs);
   } else {
-    participants_[prefix] = printable(info.info.m_participantName.to_string());
+    Known& known = participants_[prefix];
+    known.name = printable(info.info.m_participantName.to_string());
+    known.observes = announced_topics(info.info.m_userData);
+    known.proxy = &info.info;
+    known.vouched = true;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
+/// What a participant tells all others about the topics that it observes, as its user data: a
+/// bounded number of bytes, so that its announcement stays one datagram. More than 128 topics are not told.
+[[nodiscard]] std::vector<std::uint8_t> observes_announcement(
+    const std::vector<std::string>& topics);
+
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataWriter& writer);
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataReader& reader);
 
@@ -33,6 +39,9 @@ struct EndpointPolicies {
 /// an endpoint does not fit, but not whose it is and what that one asks for.
 class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
+  using Prefix = std::array<std::uint8_t, 12>;  // of the participant
+  using Guid = std::array<std::uint8_t, 16>;
+
   /// `own_name`: of this participant, <namespace>/<label>.
   explicit KnownEndpoints(std::string own_name);
 
@@ -46,6 +55,16 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
 
+  /// Names of the participants that announced that they observe `topic`, do not ask for what a
+  /// writer that offers this cannot give, and are not among `matched`.
+  [[nodiscard]] std::vector<std::string> awaited_observers(const std::string& topic,
+                                                           const EndpointPolicies& offered,
+                                                           const std::set<Prefix>& matched) const;
+
+  /// Names of those among `participants` that have been silent for longer than their lease, after
+  /// DDS was made to check their lease.
+  [[nodiscard]] std::vector<std::string> check_silent(const std::set<Prefix>& participants);
+
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -54,8 +73,15 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
                                eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
 
  private:
-  using Prefix = std::array<std::uint8_t, 12>;  // of the participant
-  using Guid = std::array<std::uint8_t, 16>;
+  struct Known {
+    std::string name;
+    std::set<std::uint32_t> observes;  // topics, as announced_topic
+    // A discovery server that lives knows it, and reports its end.
+    bool vouched = true;
+    // What DDS holds about it, valid until its removal has been reported.
+    const eprosima::fastrtps::rtps::ParticipantProxyData* proxy = nullptr;
+    bool lease_check_added = false;
+  };
   struct Endpoint {
     Prefix participant{};
     std::string topic;
@@ -63,10 +89,12 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   };
 
   [[nodiscard]] std::string name_of(const Prefix& participant) const;
+  [[nodiscard]] static bool checks_lease(const Known& known);
+  void forget(const eprosima::fastrtps::rtps::ParticipantProxyData& participant);
 
   const std::string own_name_;
   mutable std::mutex mutex_;
-  std::map<Prefix, std::string> participants_;
+  std::map<Prefix, Known> participants_;
   std::map<Guid, Endpoint> writers_;
   std::map<Guid, Endpoint> readers_;
 };

@@ -35,6 +35,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
                                           const std::vector<std::string>& addresses) {
   dds::DomainParticipantQos qos = network_qos(config, addresses);
   qos.name(config.name);
+  qos.user_data().setValue(observes_announcement(config.observes));
   if (config.security) add_security(*config.security, config.identity, qos);
   return qos;
 }

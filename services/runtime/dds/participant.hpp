@@ -21,6 +21,9 @@ struct ParticipantConfig {
   std::optional<std::size_t> server = std::nullopt;
   std::optional<SecurityConfig> security = {};
   std::string identity = {};  ///< whose keys it has, with security
+  /// Topics that it only looks at. Writers that start later learn of it before their first message,
+  /// see WriterBase::awaited_observers. Of more than 128 the rest is not announced.
+  std::vector<std::string> observes = {};
 };
 
 /// Of a participant that takes part in `deployment` as <namespace>/`name`, where security is on

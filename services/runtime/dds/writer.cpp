@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/dds/writer.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "services/runtime/dds/cdr_type_impl.hpp"
@@ -30,13 +32,39 @@ WriterBase::Impl::~Impl() {
 
 void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
                                               const dds::PublicationMatchedStatus& status) {
+  KnownEndpoints::Guid reader{};
+  std::copy_n(static_cast<const std::uint8_t*>(status.last_subscription_handle.value),
+              reader.size(), reader.begin());
+  {
+    const std::lock_guard lock(mutex);
+    if (status.current_count_change > 0) {
+      readers.insert(reader);
+    } else {
+      readers.erase(reader);
+    }
+  }
   match.set_matched(status.current_count);
 }
 
+<<<<<<< HEAD
 WriterBase::WriterBase(Participant& participant, const std::string& topic,
                        const std::string& type_name, const topics::CdrCodec* codec,
                        const TopicQos& qos)
     : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
+=======
+std::set<KnownEndpoints::Prefix> WriterBase::Impl::reading_participants() const {
+  std::set<KnownEndpoints::Prefix> participants;
+  const std::lock_guard lock(mutex);
+  for (const KnownEndpoints::Guid& reader : readers) {
+    KnownEndpoints::Prefix prefix{};
+    std::copy_n(reader.begin(), prefix.size(), prefix.begin());
+    participants.insert(prefix);
+  }
+  return participants;
+}
+
+WriterBase::WriterBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+>>>>>>> observers
 WriterBase::~WriterBase() = default;
 
 std::size_t WriterBase::matched() const { return impl_->match.matched(); }
@@ -56,6 +84,15 @@ bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
 std::vector<std::string> WriterBase::incompatible_qos() const {
   return impl_->participant.impl().endpoints->misfits_of_writer(impl_->topic_name,
                                                                 policies_of(*impl_->writer));
+}
+
+std::vector<std::string> WriterBase::awaited_observers() const {
+  return impl_->participant.impl().endpoints->awaited_observers(
+      impl_->topic_name, policies_of(*impl_->writer), impl_->reading_participants());
+}
+
+std::vector<std::string> WriterBase::check_silent_readers() {
+  return impl_->participant.impl().endpoints->check_silent(impl_->reading_participants());
 }
 
 void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }

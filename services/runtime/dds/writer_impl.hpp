@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
+#include <set>
 #include <string>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -21,9 +23,14 @@ struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
       eprosima::fastdds::dds::DataWriter*,
       const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
 
+  /// Participants of the matched readers.
+  [[nodiscard]] std::set<KnownEndpoints::Prefix> reading_participants() const;
+
   Participant& participant;
   std::string topic_name;
   MatchState match;
+  mutable std::mutex mutex;
+  std::set<KnownEndpoints::Guid> readers;  // matched
   eprosima::fastdds::dds::DataWriter* writer = nullptr;
 };
 

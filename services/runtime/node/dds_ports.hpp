@@ -101,6 +101,12 @@ class WriterOutput final : public Output {
     return writer_.wait_for_acknowledgments(timeout);
   }
   void assert_liveliness() override { writer_.assert_liveliness(); }
+  [[nodiscard]] std::vector<std::string> awaited_observers() const override {
+    return writer_.awaited_observers();
+  }
+  [[nodiscard]] std::vector<std::string> check_silent_readers() override {
+    return writer_.check_silent_readers();
+  }
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
     return writer_.incompatible_qos();
   }
