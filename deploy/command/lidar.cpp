@@ -16,6 +16,7 @@
 namespace quoin::deploy {
 namespace {
 
+using namespace sensor_bridge;
 using namespace sensor_bridge::rplidar;
 using Json = nlohmann::ordered_json;
 

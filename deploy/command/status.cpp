@@ -87,6 +87,11 @@ void print(const std::vector<Row>& rows) {
     if (!row.status) continue;
     const std::string& name = row.figures.name;
     if (!row.status->detail().empty()) std::cout << name << ": " << row.status->detail() << '\n';
+    for (const msg::InputStatus& input : row.status->inputs()) {
+      if (input.unjoined() == 0) continue;
+      std::cout << name << ": " << input.unjoined() << " results without a message of port "
+                << input.port() << '\n';
+    }
     for (const std::string& mismatch : row.status->incompatible_qos()) {
       std::cout << name << ": incompatible QoS: " << mismatch << '\n';
     }
@@ -94,6 +99,39 @@ void print(const std::vector<Row>& rows) {
       std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
     }
   }
+}
+
+nlohmann::ordered_json inputs_of(const msg::ServiceStatus& status, nlohmann::ordered_json& matched) {
+  auto inputs = nlohmann::ordered_json::array();
+  std::uint64_t writers = 0;
+  for (const msg::InputStatus& input : status.inputs()) {
+    writers += input.writers();
+    inputs.push_back({{"port", input.port()},
+                      {"topic", input.topic()},
+                      {"writers", input.writers()},
+                      {"received", input.received()},
+                      {"lost", input.lost()},
+                      {"upstream_lost", input.upstream_lost()},
+                      {"duplicates", input.duplicates()},
+                      {"unjoined", input.unjoined()}});
+  }
+  matched = writers;
+  return inputs;
+}
+
+nlohmann::ordered_json outputs_of(const msg::ServiceStatus& status,
+                                  nlohmann::ordered_json& matched) {
+  auto outputs = nlohmann::ordered_json::array();
+  std::uint64_t readers = 0;
+  for (const msg::OutputStatus& output : status.outputs()) {
+    readers += output.readers();
+    outputs.push_back({{"topic", output.topic()},
+                       {"readers", output.readers()},
+                       {"published", output.published()},
+                       {"lost", output.lost()}});
+  }
+  matched = readers;
+  return outputs;
 }
 
 void print_json(const std::vector<Row>& rows) {
@@ -111,8 +149,10 @@ void print_json(const std::vector<Row>& rows) {
       object["incarnation"] = status.incarnation();
       object["stamp"] = status.stamp();
       object["age_s"] = row.figures.age;
-      object["matched_inputs"] = status.matched_inputs();
-      object["matched_outputs"] = status.matched_outputs();
+      object["matched_inputs"] = 0;
+      object["matched_outputs"] = 0;
+      object["inputs"] = inputs_of(status, object["matched_inputs"]);
+      object["outputs"] = outputs_of(status, object["matched_outputs"]);
       object["control_dropped"] = status.control_dropped();
       object["incompatible_qos"] = status.incompatible_qos();
       auto diagnostics = nlohmann::ordered_json::object();

@@ -160,8 +160,9 @@ Check check_disk(const fs::path& folder, std::uint64_t capacity, std::uint64_t a
 
 Check check_programs(const fs::path& folder) {
   std::set<std::string> missing;
-  for (const KindInfo& kind : kinds()) {
-    const fs::path program = folder / kind.program;
+  for (const KindInfo* kind : kinds().kinds) {
+    if (kind->program.empty()) continue;
+    const fs::path program = folder / kind->program;
     if (::access(program.c_str(), X_OK) != 0) missing.insert(program.filename());
   }
   if (missing.empty()) return {"programs", Verdict::good, "all are in " + folder.string(), ""};

@@ -9,6 +9,7 @@
 namespace quoin::deploy {
 namespace {
 
+using namespace sensor_bridge;
 using namespace sensor_bridge::rplidar;
 
 constexpr double tolerance = 0.05;  // of speed and sample rate; an S1 keeps both within 1 %

@@ -10,6 +10,7 @@
 namespace quoin::deploy {
 namespace {
 
+using namespace sensor_bridge;
 using namespace sensor_bridge::rplidar;
 using Json = nlohmann::ordered_json;
 

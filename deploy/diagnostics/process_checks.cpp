@@ -46,8 +46,9 @@ std::string status_of(const fs::path& process, std::string_view key) {
 bool is_service(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return false;
   const std::string program = fs::path(arguments.front()).filename();
-  return std::any_of(kinds().begin(), kinds().end(),
-                     [&](const KindInfo& kind) { return kind.program == program; });
+  return std::any_of(kinds().kinds.begin(), kinds().kinds.end(), [&](const KindInfo* kind) {
+    return !kind->program.empty() && kind->program == program;
+  });
 }
 
 /// Whether systemd looks after it.

@@ -20,6 +20,7 @@ std::string id_of(const ServiceConfig& service) {
 }
 
 void look_at_device(const ServiceConfig& config, ExportedService& service) {
+  using namespace sensor_bridge;
   using namespace sensor_bridge::rplidar;
   if (config.kind == "rplidar_emulator") service.own_network = true;
   if (config.kind != "rplidar") return;

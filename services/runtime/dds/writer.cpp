@@ -46,12 +46,6 @@ void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
   match.set_matched(status.current_count);
 }
 
-<<<<<<< HEAD
-WriterBase::WriterBase(Participant& participant, const std::string& topic,
-                       const std::string& type_name, const topics::CdrCodec* codec,
-                       const TopicQos& qos)
-    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
-=======
 std::set<KnownEndpoints::Prefix> WriterBase::Impl::reading_participants() const {
   std::set<KnownEndpoints::Prefix> participants;
   const std::lock_guard lock(mutex);
@@ -63,8 +57,10 @@ std::set<KnownEndpoints::Prefix> WriterBase::Impl::reading_participants() const 
   return participants;
 }
 
-WriterBase::WriterBase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
->>>>>>> observers
+WriterBase::WriterBase(Participant& participant, const std::string& topic,
+                       const std::string& type_name, const topics::CdrCodec* codec,
+                       const TopicQos& qos)
+    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
 WriterBase::~WriterBase() = default;
 
 std::size_t WriterBase::matched() const { return impl_->match.matched(); }
