@@ -15,6 +15,7 @@ namespace quoin::topics {
 namespace {
 
 constexpr std::size_t deepest_nesting = 16;  // of modules, and of sequences
+constexpr std::size_t most_types = 10'000;   // fields included; a recording may come from anybody
 
 // Annotations that change nothing of what is sent.
 constexpr std::array<std::string_view, 10> ignored_annotations{
@@ -192,7 +193,7 @@ class Parser {
       while (accept(","));
       expect(";");
     } while (!accept("}"));
-    types_.types.push_back(std::move(type));
+    add(std::move(type));
   }
 
   void field(std::size_t type, std::vector<IdlField>& fields) {
@@ -221,10 +222,11 @@ class Parser {
     do type.enumerators.push_back(name());
     while (accept(","));
     expect("}");
-    types_.types.push_back(std::move(type));
+    add(std::move(type));
   }
 
   std::size_t add(IdlType type) {
+    if (types_.types.size() >= most_types) fail("too many types");
     types_.types.push_back(std::move(type));
     return types_.types.size() - 1;
   }

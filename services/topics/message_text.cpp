@@ -44,11 +44,6 @@ std::string text_of(const Json& message, const char* field) {
   return message.at(field).get<std::string>();
 }
 
-bool is_our_header(const Json& header) {
-  return header.is_object() && header.contains("origins") && header.contains("stamp") &&
-         header.contains("frame") && header.contains("trace");
-}
-
 std::string header_text(const Json& header) {
   std::ostringstream text;
   const Json& origins = header.at("origins");
@@ -121,7 +116,6 @@ std::string corners_text(const Json& message) {
 // Appends " name value," for each single value and " name[length]," for each sequence.
 void append_fields(const Json& object, const std::string& prefix, std::string& text) {
   for (const auto& [name, value] : object.items()) {
-    if (prefix.empty() && name == "header" && is_our_header(value)) continue;
     if (value.is_object()) {
       append_fields(value, prefix + name + '.', text);
     } else if (value.is_array()) {
@@ -140,6 +134,11 @@ std::string fields_text(const Json& message) {
   return text;
 }
 
+std::string fields_without_header(Json message) {
+  message.erase("header");
+  return fields_text(message);
+}
+
 // Types with a text that says more than their fields would.
 constexpr std::pair<std::string_view, std::string (*)(const Json&)> texts[] = {
     {"quoin::msg::Scan", scan_text},
@@ -147,16 +146,23 @@ constexpr std::pair<std::string_view, std::string (*)(const Json&)> texts[] = {
     {"quoin::msg::Lines", lines_text},
     {"quoin::msg::Corners", corners_text}};
 
+// Throws Json::exception for a message without our header, or of another version of its type.
+std::string own_text(std::string_view dds_type, const Json& message) {
+  const auto* special =
+      std::ranges::find(texts, dds_type, [](const auto& row) { return row.first; });
+  return header_text(message.at("header")) +
+         (special == std::end(texts) ? fields_without_header(message) : special->second(message));
+}
+
 }  // namespace
 
 std::string to_text(std::string_view dds_type, const Json& message) {
   std::string text;
-  if (message.contains("header") && is_our_header(message["header"])) {
-    text = header_text(message["header"]);
+  try {
+    text = own_text(dds_type, message);
+  } catch (const Json::exception&) {
+    text = fields_text(message);
   }
-  const auto* special =
-      std::ranges::find(texts, dds_type, [](const auto& row) { return row.first; });
-  text += special == std::end(texts) ? fields_text(message) : special->second(message);
   if (text.starts_with(' ')) text.erase(0, 1);
   // A name may come from anybody and goes to a terminal.
   std::ranges::replace_if(

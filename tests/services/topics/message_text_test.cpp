@@ -53,6 +53,12 @@ TEST(MessageText, AnyOtherTypeShowsItsValues) {
             "header.frame_id a, range null");
 }
 
+TEST(MessageText, AnotherVersionOfATypeShowsItsValues) {
+  EXPECT_EQ(to_text("quoin::msg::Scan", Json::parse(R"({"header": {"sensor": "front"}})")),
+            "header.sensor front");
+  EXPECT_EQ(to_text("quoin::msg::Scan", with_header(R"({"ranges": 5})")).substr(0, 8), "ranges 5");
+}
+
 TEST(MessageText, ControlCharactersDoNotReachTheTerminal) {
   Json message{{"header", header}};
   message["header"]["frame"] = "\x1b[2J\n";
