@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "services/topics/topic_types.hpp"
+
 namespace quoin {
 
 namespace {
@@ -20,6 +22,16 @@ OutputConfig output_of(const ServiceConfig& writer, std::string_view type,
   return {.type = std::string(type),
           .topic = output_topic(name_space, writer.name, type),
           .qos = effective_qos(writer.qos, type)};
+}
+
+/// What an observer may find there: of a kind that is not known here any type there is.
+std::vector<OutputConfig> outputs_of(const ServiceConfig& writer, std::string_view name_space) {
+  if (writer.info != nullptr) return writer.outputs;
+  std::vector<OutputConfig> outputs;
+  for (const topics::TopicType& type : topics::topic_types()) {
+    outputs.push_back(output_of(writer, type.name, name_space));
+  }
+  return outputs;
 }
 
 }  // namespace
@@ -57,7 +69,7 @@ std::vector<Connection> Graph::inputs_of(const ServiceConfig& service) const {
     const ServiceConfig* writer = find(input.service);
     if (writer == nullptr) continue;
     if (input.port.empty() && observes(service)) {
-      for (const OutputConfig& output : writer->outputs) {
+      for (const OutputConfig& output : outputs_of(*writer, name_space_)) {
         connections.push_back({&service, "", output.type, Join::each, writer, output});
       }
       continue;

@@ -12,7 +12,10 @@
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "services/runtime/node/ports.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/topics/cdr_codec.hpp"
 #include "services/topics/header.hpp"
+#include "services/topics/topic_types.hpp"
 
 namespace quoin::runtime {
 
@@ -46,7 +49,22 @@ class StrangerNumbers {
   std::uint64_t incarnation_ = 0;
 };
 
-/// Messages that DDS brings. Those that nobody keeps any more give their memory to later ones.
+/// Messages that nobody keeps any more give their memory to later ones.
+template <class T>
+class MessagePlaces {
+ public:
+  [[nodiscard]] const std::shared_ptr<T>& free() {
+    for (const std::shared_ptr<T>& place : places_) {
+      if (place.use_count() == 1) return place;
+    }
+    return places_.emplace_back(std::make_shared<T>());
+  }
+
+ private:
+  std::vector<std::shared_ptr<T>> places_;
+};
+
+/// Messages that DDS brings.
 template <class T>
 class ReaderInput final : public Input {
  public:
@@ -58,7 +76,7 @@ class ReaderInput final : public Input {
   }
 
   [[nodiscard]] std::optional<Message> take() override {
-    std::shared_ptr<T>& free = free_place();
+    const std::shared_ptr<T>& free = places_.free();
     if (!reader_.take(*free)) return std::nullopt;
     if (numbers_ && free->header().trace().empty()) {
       numbers_->number(reader_.last_sample(), free->header());
@@ -72,16 +90,49 @@ class ReaderInput final : public Input {
   [[nodiscard]] ReaderBase& reader() { return reader_; }
 
  private:
-  std::shared_ptr<T>& free_place() {
-    for (std::shared_ptr<T>& place : places_) {
-      if (place.use_count() == 1) return place;
-    }
-    return places_.emplace_back(std::make_shared<T>());
-  }
-
   Reader<T> reader_;
   std::optional<StrangerNumbers> numbers_;
-  std::vector<std::shared_ptr<T>> places_;
+  MessagePlaces<T> places_;
+};
+
+/// What an observer gets: a message of any type as it was sent, and its header.
+struct ObservedMessage {
+  std::string type;   ///< of the table of topic types
+  std::string topic;
+  topics::RawMessage raw;
+  msg::Header header;
+};
+
+/// Messages of any type that DDS brings to an observer. What has no header of ours is left out.
+class ObservedInput final : public Input {
+ public:
+  ObservedInput(Participant& participant, const OutputConfig& output, const TopicQos& qos)
+      : type_(output.type),
+        topic_(output.topic),
+        reader_(participant, output.topic,
+                std::string(topics::find_topic_type(output.type)->dds_type), qos) {}
+
+  [[nodiscard]] std::optional<Message> take() override {
+    const std::shared_ptr<ObservedMessage>& free = places_.free();
+    while (reader_.take(free->raw)) {
+      if (!topics::read_header(free->raw, free->header)) continue;
+      free->type = type_;
+      free->topic = topic_;
+      return Message{free, &typeid(ObservedMessage), &free->header};
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::size_t matched() const override { return reader_.matched(); }
+  [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
+    return reader_.incompatible_qos();
+  }
+  [[nodiscard]] ReaderBase& reader() { return reader_; }
+
+ private:
+  std::string type_;
+  std::string topic_;
+  RawReader reader_;
+  MessagePlaces<ObservedMessage> places_;
 };
 
 /// Messages that DDS takes.

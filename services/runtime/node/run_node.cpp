@@ -72,16 +72,29 @@ class NodeProcess {
     return parts;
   }
 
+  [[nodiscard]] Node::InputPart wired(const Connection& connection) {
+    const InputPort& port = *kind_.input(connection.port);
+    const ServiceConfig& writer = *connection.writer;
+    DdsInput made = types_.inputs[static_cast<std::size_t>(&port - kind_.inputs.data())](
+        service_.participant, connection.output.topic, output_qos(writer, connection.output),
+        writer.external() ? writer.name : "");
+    wait_set_.add(*made.reader);
+    return {port, writer.name, connection.output.topic, std::move(made.input)};
+  }
+
+  [[nodiscard]] Node::InputPart observed(const Connection& connection) {
+    const OutputConfig& output = connection.output;
+    auto input = std::make_unique<ObservedInput>(service_.participant, output,
+                                                 observer_qos(*connection.writer, output));
+    wait_set_.add(input->reader());
+    return {{.name = output.topic, .type = output.type}, connection.writer->name, output.topic,
+            std::move(input)};
+  }
+
   void open_inputs() {
     std::vector<Node::InputPart> parts;
     for (const Connection& connection : service_.graph.inputs_of(service_.config)) {
-      const InputPort& port = *kind_.input(connection.port);
-      const ServiceConfig& writer = *connection.writer;
-      DdsInput made = types_.inputs[static_cast<std::size_t>(&port - kind_.inputs.data())](
-          service_.participant, connection.output.topic, output_qos(writer, connection.output),
-          writer.external() ? writer.name : "");
-      wait_set_.add(*made.reader);
-      parts.push_back({port, writer.name, connection.output.topic, std::move(made.input)});
+      parts.push_back(kind_.observer ? observed(connection) : wired(connection));
     }
     // The heartbeat asks the node for its ports.
     service_.record.set_endpoint_report(nullptr);

@@ -34,6 +34,17 @@ double default_patience(const Deployment& deployment) {
   return deployment.security ? 30.0 : 10.0;
 }
 
+/// An observer announces what it observes: who begins to write waits for it.
+ParticipantConfig participant_of(const Deployment& deployment, const ServiceConfig& config,
+                                 const Graph& graph) {
+  ParticipantConfig participant = participant_config(deployment, label(config));
+  if (!config.info->observer) return participant;
+  for (const Connection& input : graph.inputs_of(config)) {
+    participant.observes.push_back(input.output.topic);
+  }
+  return participant;
+}
+
 }  // namespace
 
 Service::Service(StopSignal& stop_signal, const Deployment& deployment_file,
@@ -43,7 +54,7 @@ Service::Service(StopSignal& stop_signal, const Deployment& deployment_file,
       deployment(deployment_file),
       config(service_config),
       graph(deployment),
-      participant(participant_config(deployment, label(config))),
+      participant(participant_of(deployment, config, graph)),
       record(config),
       heartbeat(participant, deployment.name_space, record),
       expected_readers(graph.expected_readers(config) + observers),
