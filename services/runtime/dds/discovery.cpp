@@ -199,8 +199,9 @@ KnownEndpoints::KnownEndpoints(std::string own_name) : own_name_(std::move(own_n
 // Without the namespace that it shares with this participant.
 std::string KnownEndpoints::name_of(const Prefix& participant) const {
   const auto known = participants_.find(participant);
-  if (known == participants_.end() || known->second.name.empty())
+  if (known == participants_.end() || known->second.name.empty()) {
     return "a participant without name";
+  }
   const std::size_t slash = own_name_.rfind('/');
   const std::string name_space = own_name_.substr(0, slash == std::string::npos ? 0 : slash + 1);
   const std::string& name = known->second.name;
@@ -259,7 +260,8 @@ std::vector<std::string> KnownEndpoints::awaited_observers(const std::string& to
   return names;
 }
 
-std::uint64_t KnownEndpoints::wait_for_newcomer(std::uint64_t seen, std::stop_token stop) const {
+std::uint64_t KnownEndpoints::wait_for_new_participant(std::uint64_t seen,
+                                                       std::stop_token stop) const {
   std::unique_lock lock(mutex_);
   discovered_changed_.wait(lock, stop, [&] { return discovered_ > seen; });
   return discovered_;

@@ -59,7 +59,8 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   [[nodiscard]] std::vector<std::string> written_topics() const;
 
   /// Number of participants discovered so far, once it is above `seen` or a stop is requested.
-  [[nodiscard]] std::uint64_t wait_for_newcomer(std::uint64_t seen, std::stop_token stop) const;
+  [[nodiscard]] std::uint64_t wait_for_new_participant(std::uint64_t seen,
+                                                       std::stop_token stop) const;
   /// True if DDS checks the lease of one that lives: among clients, that of a discovery server.
   [[nodiscard]] bool knows_server() const;
 

@@ -40,8 +40,8 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
   return qos;
 }
 
-// From the creation of a participant until those before it are known, at 50 starts of a process at
-// most 135 ms, and with a server, that is asked every 450 ms, 470 ms.
+// Of 50 new processes on loopback the last knew an observer 24 ms after its participant was
+// created, 55 ms beside two busy loops. A discovery server is asked every 450 ms: 468 ms.
 constexpr auto settled_after = std::chrono::milliseconds(300);
 constexpr auto settled_after_with_server = std::chrono::milliseconds(1000);
 
@@ -50,15 +50,15 @@ constexpr auto settled_after_with_server = std::chrono::milliseconds(1000);
 // announcement. Twice, because a busy machine may take longer to start it.
 constexpr std::array answers_after = {std::chrono::milliseconds(20), std::chrono::milliseconds(80)};
 
-void answer_newcomers(const std::stop_token& stop, const KnownEndpoints& endpoints,
-                      dds::DomainParticipant& participant,
-                      const std::vector<std::string>& observes) {
+void answer_new_participants(const std::stop_token& stop, const KnownEndpoints& endpoints,
+                             dds::DomainParticipant& participant,
+                             const std::vector<std::string>& observes) {
   std::mutex mutex;
   std::condition_variable_any never;
   std::uint32_t number = 0;
   std::uint64_t seen = 0;
   while (true) {
-    seen = endpoints.wait_for_newcomer(seen, stop);
+    seen = endpoints.wait_for_new_participant(seen, stop);
     for (const auto delay : answers_after) {
       std::unique_lock lock(mutex);
       never.wait_for(lock, stop, delay, [] { return false; });
@@ -114,7 +114,7 @@ Participant::Participant(const ParticipantConfig& config)
     impl_->answering =
         std::jthread([&endpoints = *impl_->endpoints, &participant = *impl_->participant,
                       observes = config.observes](const std::stop_token& stop) {
-          answer_newcomers(stop, endpoints, participant, observes);
+          answer_new_participants(stop, endpoints, participant, observes);
         });
   }
 }
