@@ -28,9 +28,10 @@ namespace {
 constexpr std::size_t longest_name = 80;
 constexpr std::size_t most_misfits = 32;
 
-// What user data begins with that announces topics. A number of 32 bits for each follows, least
-// significant byte first: the names of all topics of a deployment would not fit into a datagram,
-// and two that share a number cost a start no more than a wait for nobody.
+// What user data begins with that announces topics. Numbers of 32 bits follow, least significant
+// byte first: that of the announcement, then one for each topic. The names of all topics of a
+// deployment would not fit into a datagram, and two that share a number cost a start no more than a
+// wait for nobody.
 constexpr std::string_view announcement_begin = "quoin observes:";
 constexpr std::size_t most_announced = 128;
 
@@ -54,7 +55,7 @@ std::set<std::uint32_t> announced_topics(const std::vector<std::uint8_t>& data) 
       !std::equal(announcement_begin.begin(), announcement_begin.end(), data.begin())) {
     return topics;
   }
-  for (std::size_t i = announcement_begin.size();
+  for (std::size_t i = announcement_begin.size() + 4;
        i + 4 <= data.size() && topics.size() < most_announced; i += 4) {
     topics.insert(data[i] | static_cast<std::uint32_t>(data[i + 1]) << 8U |
                   static_cast<std::uint32_t>(data[i + 2]) << 16U |
@@ -169,14 +170,18 @@ void set_lease_check(const rtps::ParticipantProxyData& participant, bool wanted)
 
 }  // namespace
 
-std::vector<std::uint8_t> observes_announcement(const std::vector<std::string>& topics) {
+std::vector<std::uint8_t> observes_announcement(const std::vector<std::string>& topics,
+                                                std::uint32_t number) {
   if (topics.empty()) return {};
   std::vector<std::uint8_t> data(announcement_begin.begin(), announcement_begin.end());
-  for (std::size_t i = 0; i < std::min(topics.size(), most_announced); ++i) {
-    const std::uint32_t number = announced_topic(topics[i]);
+  const auto add = [&](std::uint32_t value) {
     for (unsigned shift = 0; shift < 32U; shift += 8U) {
-      data.push_back(static_cast<std::uint8_t>(number >> shift));
+      data.push_back(static_cast<std::uint8_t>(value >> shift));
     }
+  };
+  add(number);
+  for (std::size_t i = 0; i < std::min(topics.size(), most_announced); ++i) {
+    add(announced_topic(topics[i]));
   }
   return data;
 }
@@ -194,7 +199,9 @@ KnownEndpoints::KnownEndpoints(std::string own_name) : own_name_(std::move(own_n
 // Without the namespace that it shares with this participant.
 std::string KnownEndpoints::name_of(const Prefix& participant) const {
   const auto known = participants_.find(participant);
-  if (known == participants_.end() || known->second.name.empty()) return "a participant without name";
+  if (known == participants_.end() || known->second.name.empty()) {
+    return "a participant without name";
+  }
   const std::size_t slash = own_name_.rfind('/');
   const std::string name_space = own_name_.substr(0, slash == std::string::npos ? 0 : slash + 1);
   const std::string& name = known->second.name;
@@ -253,6 +260,19 @@ std::vector<std::string> KnownEndpoints::awaited_observers(const std::string& to
   return names;
 }
 
+std::uint64_t KnownEndpoints::wait_for_new_participant(std::uint64_t seen,
+                                                       std::stop_token stop) const {
+  std::unique_lock lock(mutex_);
+  discovered_changed_.wait(lock, stop, [&] { return discovered_ > seen; });
+  return discovered_;
+}
+
+bool KnownEndpoints::knows_server() const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(participants_.begin(), participants_.end(),
+                     [](const auto& entry) { return checks_lease(entry.second); });
+}
+
 // DDS checks the lease of all others itself, except among clients of a discovery server.
 bool KnownEndpoints::checks_lease(const Known& known) {
   return known.proxy->should_check_lease_duration && !known.lease_check_added;
@@ -302,9 +322,6 @@ void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
                                               rtps::ParticipantDiscoveryInfo&& info) {
   const std::lock_guard lock(mutex_);
   const Prefix prefix = prefix_of(info.info.m_guid);
-  if (getenv("OBS_TRACE")) {
-    fprintf(stderr, "%s: %lld status %d of %s lease %d\n", own_name_.c_str(), (long long)std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count() % 1000000, (int)info.status, info.info.m_participantName.c_str(), (int)info.info.should_check_lease_duration);
-  }
   if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
       info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
     forget(info.info);
@@ -312,6 +329,10 @@ void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
     std::erase_if(writers_, theirs);
     std::erase_if(readers_, theirs);
   } else {
+    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
+      ++discovered_;
+      discovered_changed_.notify_all();
+    }
     Known& known = participants_[prefix];
     known.name = printable(info.info.m_participantName.to_string());
     known.observes = announced_topics(info.info.m_userData);

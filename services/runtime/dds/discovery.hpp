@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <condition_variable>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,10 +29,11 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
-/// What a participant tells all others about the topics that it observes, as its user data: a
-/// bounded number of bytes, so that its announcement stays one datagram. More than 128 topics are not told.
+/// What a participant announces about the topics that it observes, as its user data. Bounded, so
+/// that the announcement stays one datagram: of more than 128 topics the rest is left out. Only an
+/// announcement with another `number` than the last is sent at once.
 [[nodiscard]] std::vector<std::uint8_t> observes_announcement(
-    const std::vector<std::string>& topics);
+    const std::vector<std::string>& topics, std::uint32_t number);
 
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataWriter& writer);
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataReader& reader);
@@ -54,6 +57,12 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
                                                            const EndpointPolicies& requested) const;
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
+
+  /// Number of participants discovered so far, once it is above `seen` or a stop is requested.
+  [[nodiscard]] std::uint64_t wait_for_new_participant(std::uint64_t seen,
+                                                       std::stop_token stop) const;
+  /// True if DDS checks the lease of one that lives: among clients, that of a discovery server.
+  [[nodiscard]] bool knows_server() const;
 
   /// Names of the participants that announced that they observe `topic`, do not ask for what a
   /// writer that offers this cannot give, and are not among `matched`.
@@ -94,6 +103,8 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
 
   const std::string own_name_;
   mutable std::mutex mutex_;
+  mutable std::condition_variable_any discovered_changed_;
+  std::uint64_t discovered_ = 0;
   std::map<Prefix, Known> participants_;
   std::map<Guid, Endpoint> writers_;
   std::map<Guid, Endpoint> readers_;

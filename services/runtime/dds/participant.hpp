@@ -21,8 +21,8 @@ struct ParticipantConfig {
   std::optional<std::size_t> server = std::nullopt;
   std::optional<SecurityConfig> security = {};
   std::string identity = {};  ///< whose keys it has, with security
-  /// Topics that it only looks at. Writers that start later learn of it before their first message,
-  /// see WriterBase::awaited_observers. Of more than 128 the rest is not announced.
+  /// Topics that it only looks at. Writers that start later can wait for it before their first
+  /// message, see WriterBase::awaited_observers. Of more than 128 the rest is not announced.
   std::vector<std::string> observes = {};
 };
 
@@ -45,6 +45,9 @@ class Participant {
 
   /// Topics that other participants are known to write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
+  /// True once the participants that were there before this one are known, unless the network or
+  /// the machine is slow; with Discovery::server not before a server answered.
+  [[nodiscard]] bool discovery_settled() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

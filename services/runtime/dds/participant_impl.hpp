@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -25,6 +27,9 @@ struct Participant::Impl {
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
+  Discovery discovery = Discovery::peers;
+  std::chrono::steady_clock::time_point created;
+  std::jthread answering;  // of an observer; ends before the participant
 
   /// The topic of this name, made at its first use, as its type is; `codec` is null for raw
   /// endpoints. Throws std::runtime_error, also when the topic has another type.

@@ -16,6 +16,7 @@ enum class QosPreset {
   feature,   ///< reliable, volatile, keep last 32
   state,     ///< reliable, transient-local, keep last 1 per instance: late joiners get the latest
   control,   ///< reliable, volatile, keep last 256: requests and replies
+  observer,  ///< of readers: reliable, volatile, keep last 4096: bursts arrive, no writer waits
   lossless,  ///< reliable, keep all: a slow reader slows the writer down (replay, evaluation)
   best_effort,  ///< volatile, keep last 32, nothing is sent again: what strangers write
 };

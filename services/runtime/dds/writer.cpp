@@ -88,14 +88,19 @@ std::vector<std::string> WriterBase::awaited_observers() const {
 }
 
 std::vector<std::string> WriterBase::check_silent_readers() {
-  return impl_->participant.impl().endpoints->check_silent(impl_->reading_participants());
+  auto silent = impl_->participant.impl().endpoints->check_silent(impl_->reading_participants());
+  impl_->found_silent = !silent.empty();
+  return silent;
 }
 
 void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
 
 bool WriterBase::write_sample(const void* message, const topics::CdrCodec* codec) {
   CdrSample sample{const_cast<void*>(message), codec};  // DDS only reads it
-  return impl_->writer->write(&sample);
+  const bool written = impl_->writer->write(&sample);
+  // The check of one that spoke again just in time must end, or it would end an idle pair.
+  if (written && impl_->found_silent) (void)check_silent_readers();
+  return written;
 }
 
 bool RawWriter::write(const topics::RawMessage& message) {

@@ -29,8 +29,8 @@ class WriterBase {
   /// Tells the readers of a topic with strengths that this writer still lives; writing does, too.
   void assert_liveliness();
   /// Names of the participants that announced that they observe this topic and have no matched
-  /// reader yet; without those whose reader does not fit. To be waited for before the first message,
-  /// see Participant::discovery_settled.
+  /// reader yet; without those whose reader does not fit. To be waited for before the first
+  /// message, see Participant::discovery_settled.
   [[nodiscard]] std::vector<std::string> awaited_observers() const;
   /// Names of the participants of matched readers that have been silent for longer than their
   /// lease; DDS then drops them. For a writer that is blocked, once a second: readers answer a

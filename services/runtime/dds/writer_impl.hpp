@@ -31,6 +31,7 @@ struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
   MatchState match;
   mutable std::mutex mutex;
   std::set<KnownEndpoints::Guid> readers;  // matched
+  bool found_silent = false;               // by the last check
   eprosima::fastdds::dds::DataWriter* writer = nullptr;
 };
 

@@ -82,7 +82,8 @@ bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
                    "waiting for " + std::to_string(expected_readers) + " readers");
   const auto deadline =
       steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(patience);
-  while (matched() < expected_readers || !observers().empty()) {
+  while (matched() < expected_readers || !participant.discovery_settled() ||
+         !observers().empty()) {
     if (!stop.wait_until(steady_clock::now() + milliseconds(5))) return false;
     if (!succession.held() && steady_clock::now() > deadline) {
       std::string names;

@@ -4,9 +4,10 @@
 // A process of its own for tests that kill one:
 //   dds_peer server DOMAIN PORT LEASE
 //   dds_peer reader DOMAIN PORT LEASE TOPIC PAUSE
-// LEASE in seconds, PAUSE after each message in milliseconds. It prints "ready", and of each message
-// the sequence number, a line each.
+// LEASE in seconds, PAUSE after each message in milliseconds. It prints "ready", and of each
+// message the sequence number, a line each.
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <idl/Scan.h>
@@ -18,8 +19,6 @@
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/topics/header.hpp"
-
-#include <csignal>
 
 int main(int argc, char** argv) {
   using namespace quoin;
