@@ -103,6 +103,15 @@ CornerResult result_of(const msg::Corners& message) {
   return result;
 }
 
+runtime::ParticipantConfig participant_of(const Deployment& deployment,
+                                          const Selection& selection) {
+  auto config = runtime::participant_config(deployment, "quoin_compare", observer_identity);
+  for (const ServiceConfig* service : selection.services) {
+    config.observes.push_back(service->output("corners")->topic);
+  }
+  return config;
+}
+
 /// Listens to the corner services, until it has seen enough.
 class Listener {
  public:
@@ -110,7 +119,7 @@ class Listener {
       : options_(options),
         deployment_(deployment),
         selection_(selection),
-        participant_(runtime::participant_config(deployment, "quoin_compare", observer_identity)),
+        participant_(participant_of(deployment, selection)),
         comparison_(names(selection), selection.reference, options.gate, options.scans),
         display_(options.json ? Display::Mode::errors : Display::Mode::automatic) {
     for (const ServiceConfig* service : selection.services) {

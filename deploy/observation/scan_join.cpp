@@ -43,6 +43,14 @@ CornerChain corner_chain(const Deployment& deployment, const std::string& name) 
 
 namespace {
 
+runtime::ParticipantConfig participant_of(const Deployment& deployment, const CornerChain& chain) {
+  auto config = runtime::participant_config(deployment, "quoin_draw", observer_identity);
+  config.observes = {chain.segmentation->output("segments")->topic,
+                     chain.line_fitting->output("lines")->topic,
+                     chain.corners->output("corners")->topic};
+  return config;
+}
+
 template <class T>
 runtime::Reader<T> make_reader(runtime::Participant& participant, const ServiceConfig& service,
                                std::string_view type) {
@@ -56,7 +64,7 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
                    std::optional<std::uint64_t> scan)
     : chain_(chain),
       scan_(scan),
-      participant_(runtime::participant_config(deployment, "quoin_draw", observer_identity)),
+      participant_(participant_of(deployment, chain)),
       segments_(make_reader<msg::Segments>(participant_, *chain.segmentation, "segments")),
       lines_(make_reader<msg::Lines>(participant_, *chain.line_fitting, "lines")),
       corners_(make_reader<msg::Corners>(participant_, *chain.corners, "corners")) {
