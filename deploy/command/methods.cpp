@@ -26,33 +26,31 @@ struct MethodsOptions {
 };
 
 /// The kind of this name, or all.
-std::vector<KindInfo> chosen(const std::string& name) {
-  std::vector<KindInfo> all;
+std::vector<const KindInfo*> chosen(const std::string& name) {
+  if (name.empty()) return kinds().kinds;
   std::vector<std::string> names;
   for (const KindInfo* kind : kinds().kinds) {
-    if (kind->name == name) return {*kind};
-    all.push_back(*kind);
+    if (kind->name == name) return {kind};
     names.push_back(kind->name);
   }
-  if (name.empty()) return all;
   throw ParameterError("kind", "unknown kind '" + name + "'" + suggestion(name, names));
 }
 
-void print_json(const std::vector<KindInfo>& kinds) {
+void print_json(const std::vector<const KindInfo*>& kinds) {
   auto list = nlohmann::ordered_json::array();
-  for (const KindInfo& kind : kinds) list.push_back(description_json(kind));
+  for (const KindInfo* kind : kinds) list.push_back(description_json(*kind));
   std::cout << list.dump(2) << '\n';
 }
 
-void print_text(const std::vector<KindInfo>& kinds) {
-  for (const KindInfo& kind : kinds) {
-    std::cout << (&kind == &kinds.front() ? "" : "\n") << description_text(kind);
+void print_text(const std::vector<const KindInfo*>& kinds) {
+  for (const KindInfo* kind : kinds) {
+    std::cout << (kind == kinds.front() ? "" : "\n") << description_text(*kind);
   }
 }
 
-void print_markdown(const std::vector<KindInfo>& kinds, const std::string& report) {
-  if (kinds.size() == 1 && kinds.front().methods.empty()) {
-    throw ParameterError("kind", "kind '" + kinds.front().name + "' has no methods");
+void print_markdown(const std::vector<const KindInfo*>& kinds, const std::string& report) {
+  if (kinds.size() == 1 && kinds.front()->methods.empty()) {
+    throw ParameterError("kind", "kind '" + kinds.front()->name + "' has no methods");
   }
   std::optional<MeasuredFigures> figures;
   if (!report.empty()) figures = read_figures(report);
@@ -61,7 +59,7 @@ void print_markdown(const std::vector<KindInfo>& kinds, const std::string& repor
 
 int run(const MethodsOptions& options) {
   try {
-    const std::vector<KindInfo> kinds = chosen(options.kind);
+    const std::vector<const KindInfo*> kinds = chosen(options.kind);
     if (options.json) {
       print_json(kinds);
     } else if (options.markdown) {

@@ -104,7 +104,7 @@ struct EndFigures {
   std::string type;                  ///< of the messages
   std::uint64_t scans_expected = 0;  ///< delivered + lost
   std::uint64_t scans_delivered = 0;
-  LossFigures lost;
+  LossFigures lost = {};
   double latency_p50 = 0.0;  ///< [s] from the publication by the source to that by this service
   double latency_p99 = 0.0;  ///< [s]
   std::optional<CornerFigures> corners = std::nullopt;

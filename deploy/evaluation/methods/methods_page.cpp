@@ -94,7 +94,7 @@ std::string kind_text(const KindInfo& kind, const MeasuredFigures* figures) {
 
 }  // namespace
 
-std::string methods_page(const std::vector<KindInfo>& kinds, const MeasuredFigures* figures) {
+std::string methods_page(const std::vector<const KindInfo*>& kinds, const MeasuredFigures* figures) {
   std::string text =
       "# Methods\n\n" +
       markdown_paragraph(
@@ -106,8 +106,8 @@ std::string methods_page(const std::vector<KindInfo>& kinds, const MeasuredFigur
           "The first method of each kind of service is its default. In a deployment "
           "file a value may carry a unit, such as `10 deg` or `5 cm`; without one "
           "it is in the unit of the table.");
-  for (const KindInfo& kind : kinds) {
-    if (!kind.methods.empty()) text += kind_text(kind, figures);
+  for (const KindInfo* kind : kinds) {
+    if (!kind->methods.empty()) text += kind_text(*kind, figures);
   }
   text.pop_back();  // the last of two ends of lines
   return text;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/kinds/kinds.hpp"
+#include "services/topics/topic_types.hpp"
 
 #include <set>
 #include <stdexcept>
@@ -20,30 +21,46 @@ std::vector<std::string> names_of(const std::vector<MethodInfo>& methods) {
 
 TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
-  for (const KindInfo& kind : deploy::kinds()) names.push_back(kind.name);
+  for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
   EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator",
-                                 "segmentation", "line_fitting", "corner_estimation"));
+                                 "segmentation", "line_fitting", "corner_estimation", "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {
-  const auto check = [](const char* name, MessageType input, MessageType output,
-                        const char* program, const char* qos) {
+  std::string type = deploy::find_kind("simulated")->outputs.front().type;
+  for (const char* name : {"segmentation", "line_fitting", "corner_estimation"}) {
     const KindInfo* kind = deploy::find_kind(name);
-    ASSERT_NE(kind, nullptr) << name;
-    EXPECT_EQ(kind->input, input) << name;
-    EXPECT_EQ(kind->output, output) << name;
-    EXPECT_EQ(kind->program, program);
-    EXPECT_EQ(kind->qos, qos) << name;
-  };
-  check("simulated", MessageType::none, MessageType::scan, "quoin-simulated", "sensor");
-  check("replay", MessageType::none, MessageType::scan, "quoin-replay", "sensor");
-  check("rplidar", MessageType::none, MessageType::scan, "quoin-rplidar", "sensor");
-  check("rplidar_emulator", MessageType::none, MessageType::none, "quoin-rplidar-emulator-service",
-        "sensor");
-  check("segmentation", MessageType::scan, MessageType::segments, "quoin-segmentation", "feature");
-  check("line_fitting", MessageType::segments, MessageType::lines, "quoin-line-fitting", "feature");
-  check("corner_estimation", MessageType::lines, MessageType::corners, "quoin-corner-estimation",
-        "feature");
+    ASSERT_EQ(kind->inputs.size(), 1U) << name;
+    EXPECT_EQ(kind->inputs.front().type, type) << name;
+    ASSERT_EQ(kind->outputs.size(), 1U) << name;
+    type = kind->outputs.front().type;
+  }
+  EXPECT_EQ(type, "corners");
+}
+
+// What the wiring of a deployment relies on.
+TEST(Kinds, HavePortsThatFit) {
+  for (const KindInfo* kind : deploy::kinds().kinds) {
+    std::size_t each = 0;
+    for (const InputPort& port : kind->inputs) {
+      EXPECT_NE(topics::find_topic_type(port.type), nullptr) << kind->name << ' ' << port.name;
+      if (port.join == Join::each) ++each;
+    }
+    bool per_input = false;
+    for (const OutputPort& port : kind->outputs) {
+      EXPECT_NE(topics::find_topic_type(port.type), nullptr) << kind->name << ' ' << port.type;
+      EXPECT_EQ(kind->output(port.type), &port) << "two outputs of one type";
+      per_input = per_input || port.rate == Rate::per_input;
+    }
+    // A result per message needs one port that the messages come by.
+    if (kind->reads() && per_input) {
+      EXPECT_EQ(each, 1U) << kind->name;
+    }
+    if (kind->is_source()) {
+      EXPECT_EQ(kind->outputs.front().rate, Rate::per_input) << kind->name;
+    }
+    EXPECT_EQ(kind->program.empty(), kind == &external_kind()) << kind->name;
+  }
 }
 
 TEST(Kinds, KnowTheMethods) {
@@ -69,7 +86,8 @@ TEST(Kinds, ParametersComeFromTheMethodOrTheKind) {
 }
 
 TEST(Kinds, EveryParameterIsDescribedAndItsDefaultIsValid) {
-  for (const KindInfo& kind : deploy::kinds()) {
+  for (const KindInfo* each : deploy::kinds().kinds) {
+    const KindInfo& kind = *each;
     EXPECT_FALSE(kind.description.empty());
     std::vector<std::vector<ParameterInfo>> lists{kind.parameters};
     for (const MethodInfo& method : kind.methods) {

@@ -62,16 +62,27 @@ TEST(Incarnations, SumCountersOverProcessesInAnyOrder) {
 
 TEST(Incarnations, CountWhatOthersSawOfAKilledProcess) {
   Incarnations incarnations;
+  incarnations.set_topic("ns/front/scan");
   incarnations.update(10, report(0, 5, 0));
-  incarnations.published_at_least(10, 8);
-  incarnations.published_at_least(10, 7);
+  incarnations.published_at_least(10, "ns/front/scan", 8);
+  incarnations.published_at_least(10, "ns/front/scan", 7);
   incarnations.update(20, report(0, 3, 0));
   EXPECT_EQ(incarnations.total().published, 11U);
   EXPECT_EQ(incarnations.processes().at(10).published, 8U);
   EXPECT_EQ(incarnations.processes().at(20).published, 3U);
-  incarnations.published_at_least(30, 2);  // died before its first heartbeat
+  incarnations.published_at_least(30, "ns/front/scan", 2);  // died before its first heartbeat
   EXPECT_EQ(incarnations.total().published, 13U);
   EXPECT_EQ(incarnations.processes().at(30).published, 2U);
+}
+
+TEST(Incarnations, CountEachTopicByItself) {
+  Incarnations incarnations;
+  incarnations.set_topic("ns/front/scan");
+  incarnations.update(10, report(0, 5, 0));
+  incarnations.published_at_least(10, "ns/front/odometry", 40);
+  EXPECT_EQ(incarnations.total().published, 5U);
+  EXPECT_EQ(incarnations.processes().at(10).published, 5U);
+  EXPECT_EQ(incarnations.processes().at(10).outputs.at("ns/front/odometry").published, 40U);
 }
 
 }  // namespace

@@ -33,8 +33,13 @@ DeploymentFigures figures() {
   return figures;
 }
 
-CornerFigures corners() {
-  return {"corners", 122, 121, 1, {{"walls", 1}}, 10.2, 0.00327, 25.23e-6};
+EndFigures corners() {
+  EndFigures end{.name = "corners", .type = "corners", .scans_expected = 122, .scans_delivered = 121};
+  end.lost.by_service["walls"] = 1;
+  end.latency_p50 = 0.0012;
+  end.latency_p99 = 0.0034;
+  end.corners = CornerFigures{10.2, 0.00327, 25.23e-6};
+  return end;
 }
 
 TEST(Table, AlignsColumns) {
@@ -47,25 +52,39 @@ TEST(Table, AlignsColumns) {
                           "0.51 / 12.30     17.0         3"));
 }
 
-TEST(Table, ShowsWhatCornerServicesDelivered) {
-  DeploymentFigures with_corners = figures();
-  CornerFigures silent;
+TEST(Table, ShowsWhatComesOutAtTheEnds) {
+  DeploymentFigures with_ends = figures();
+  EndFigures silent;
   silent.name = "others";
-  with_corners.corners = {corners(), silent};
-  const auto lines = table_lines(with_corners, no_limit);
+  silent.type = "lines";
+  with_ends.ends = {corners(), silent};
+  const auto lines = table_lines(with_ends, no_limit);
   ASSERT_THAT(lines, SizeIs(7));
   EXPECT_EQ(lines[3], "");
   EXPECT_EQ(lines[4],
-            "corners of  scans  lost  corners/scan  median sigma [mm]  median ellipse area [mm^2]");
+            "what comes out of  type     scans  lost  p50 / p99 [ms]  corners/scan  median sigma "
+            "[mm]  median ellipse area [mm^2]");
   EXPECT_EQ(lines[5],
-            "corners       121     1         10.20               3.27                       25.23");
+            "corners            corners    121     1     1.20 / 3.40         10.20               "
+            "3.27                       25.23");
   EXPECT_EQ(lines[6],
-            "others          0     0          0.00                  -                           -");
+            "others             lines        0     0               -             -               "
+            "   -                           -");
+}
+
+TEST(Table, LeavesOutCornersWhereThereAreNone) {
+  DeploymentFigures with_ends = figures();
+  EndFigures end;
+  end.name = "map";
+  end.type = "lines";
+  with_ends.ends = {end};
+  EXPECT_EQ(table_lines(with_ends, no_limit)[4],
+            "what comes out of  type   scans  lost  p50 / p99 [ms]");
 }
 
 TEST(Table, IsClippedToTheWidth) {
   DeploymentFigures with_corners = figures();
-  with_corners.corners = {corners()};
+  with_corners.ends = {corners()};
   for (const std::string& line : table_lines(with_corners, 40)) EXPECT_LE(line.size(), 40U);
   for (const std::string& line : table_lines(with_corners, 0)) EXPECT_EQ(line, "");
 }
@@ -74,15 +93,15 @@ TEST(Table, OfNothingIsItsHead) { EXPECT_THAT(table_lines({}, no_limit), SizeIs(
 
 TEST(ProgressLine, TellsOfServicesUntilCornersArrive) {
   DeploymentFigures with_corners = figures();
-  with_corners.corners = {CornerFigures{}};
-  with_corners.corners[0].name = "corners";
+  with_corners.ends = {EndFigures{}};
+  with_corners.ends[0].name = "corners";
   EXPECT_EQ(progress_line(with_corners),
             "12.3 s | corners 0 scans, 0 lost | front active 123 | walls active 123 (3 restarts)");
 }
 
 TEST(ProgressLine, TellsOfCornersAndWhatIsNotAsUsual) {
   DeploymentFigures with_corners = figures();
-  with_corners.corners = {corners()};
+  with_corners.ends = {corners()};
   EXPECT_EQ(progress_line(with_corners),
             "12.3 s | corners 121 scans, 1 lost, 10.2 corners, sigma 3.27 mm | walls active (3 "
             "restarts)");

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "services/deployment/deployment.hpp"
+#include "services/deployment/graph.hpp"
 #include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
@@ -25,13 +26,10 @@ class Examples : public testing::TestWithParam<std::filesystem::path> {};
 TEST_P(Examples, AreValidAndEndInCorners) {
   const Deployment deployment = deploy::load_deployment(GetParam());
   ASSERT_FALSE(deployment.services.empty());
-  EXPECT_EQ(deploy::find_kind(deployment.services.front().kind)->input, MessageType::none);
-  EXPECT_EQ(deploy::find_kind(deployment.services.back().kind)->output, MessageType::corners);
-  for (const ServiceConfig& service : deployment.services) {
-    const MessageType output = deploy::find_kind(service.kind)->output;
-    if (output != MessageType::none && deployment.readers_of(service.name).empty()) {
-      EXPECT_EQ(service.kind, "corner_estimation") << service.name << " is read by nobody";
-    }
+  EXPECT_TRUE(deployment.services.front().inputs.empty());
+  EXPECT_NE(deployment.services.back().output("corners"), nullptr);
+  for (const Connection& end : Graph(deployment).ends()) {
+    EXPECT_EQ(end.type, "corners") << end.writer->name << " is read by nobody";
   }
 }
 

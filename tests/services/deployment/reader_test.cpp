@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "services/deployment/deployment.hpp"
+#include "services/deployment/graph.hpp"
 #include "tests/temporary_folder.hpp"
 #include "deploy/kinds/kinds.hpp"
 
@@ -39,14 +40,14 @@ TEST(Reader, FillsInDefaults) {
   EXPECT_EQ(deployment.domain, 0);
   const ServiceConfig& lines = deployment.service("lines");
   EXPECT_EQ(lines.kind, "line_fitting");
-  EXPECT_EQ(lines.input, "walls");
+  EXPECT_EQ(lines.input("segments"), "walls");
   EXPECT_FALSE(lines.method.empty());
-  EXPECT_EQ(lines.qos, "feature");
+  EXPECT_EQ(lines.outputs.front().qos, "feature");
   EXPECT_EQ(lines.restart, RestartPolicy::always);
   EXPECT_THAT(lines.parameters, testing::IsEmpty());
   EXPECT_EQ(lines.position.line, 4);
   EXPECT_EQ(lines.position.column, 5);
-  EXPECT_EQ(deployment.service("front").qos, "sensor");
+  EXPECT_EQ(deployment.service("front").outputs.front().qos, "sensor");
   EXPECT_EQ(deployment.service("front").method, "");
 }
 
@@ -212,8 +213,9 @@ TEST(Reader, ReadsFilesWithWindowsLineEnds) {
 
 TEST(Deployment, FindsServicesAndReaders) {
   const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
-  EXPECT_THAT(deployment.readers_of("walls"), ElementsAre(&deployment.service("lines")));
-  EXPECT_THAT(deployment.readers_of("corners"), testing::IsEmpty());
+  const Graph graph(deployment);
+  EXPECT_THAT(graph.readers_of("walls"), ElementsAre(&deployment.service("lines")));
+  EXPECT_THAT(graph.readers_of("corners"), testing::IsEmpty());
   try {
     (void)deployment.service("cornrs");
     FAIL() << "found";
@@ -224,10 +226,10 @@ TEST(Deployment, FindsServicesAndReaders) {
 
 TEST(Deployment, NamesTopics) {
   const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
-  EXPECT_EQ(output_topic(deployment, deployment.service("front")), "quoin/front/scan");
-  EXPECT_EQ(output_topic(deployment, deployment.service("walls")), "quoin/walls/segments");
-  EXPECT_EQ(output_topic(deployment, deployment.service("lines")), "quoin/lines/lines");
-  EXPECT_EQ(output_topic(deployment, deployment.service("corners")), "quoin/corners/corners");
+  EXPECT_EQ(deployment.service("front").outputs.front().topic, "quoin/front/scan");
+  EXPECT_EQ(deployment.service("walls").outputs.front().topic, "quoin/walls/segments");
+  EXPECT_EQ(deployment.service("lines").outputs.front().topic, "quoin/lines/lines");
+  EXPECT_EQ(deployment.service("corners").outputs.front().topic, "quoin/corners/corners");
   EXPECT_EQ(status_topic("a/b"), "a/b/status");
   EXPECT_EQ(control_request_topic("a"), "a/control/request");
   EXPECT_EQ(control_reply_topic("a"), "a/control/reply");

@@ -6,7 +6,7 @@
 #include "services/topics/lines.hpp"
 #include "services/topics/segments.hpp"
 
-namespace quoin::messages {
+namespace quoin::topics {
 namespace {
 
 TEST(Messages, SensorModelGoesThereAndBack) {
@@ -85,4 +85,4 @@ TEST(Messages, CornersCarryTheirEllipses) {
 }
 
 }  // namespace
-}  // namespace quoin::messages
+}  // namespace quoin::topics

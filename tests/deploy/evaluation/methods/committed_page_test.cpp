@@ -47,7 +47,7 @@ std::vector<std::string> headings(const std::string& page) {
 TEST(CommittedMethodsPage, TellsWhatTheRegistryTells) {
   const std::string committed = committed_page();
   ASSERT_FALSE(committed.empty()) << QUOIN_METHODS_PAGE;
-  const std::vector<std::string> expected = blocks(methods_page(deploy::kinds(), nullptr));
+  const std::vector<std::string> expected = blocks(methods_page(kinds().kinds, nullptr));
   const std::vector<std::string> found = blocks(committed);
   // In order, with figures between them.
   auto next = found.begin();
@@ -61,7 +61,7 @@ TEST(CommittedMethodsPage, TellsWhatTheRegistryTells) {
 }
 
 TEST(CommittedMethodsPage, HasNoMethodThatIsNotInTheRegistry) {
-  EXPECT_EQ(headings(committed_page()), headings(methods_page(deploy::kinds(), nullptr)));
+  EXPECT_EQ(headings(committed_page()), headings(methods_page(kinds().kinds, nullptr)));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ inline KindInfo kind_of_two_methods() {
   kind.name = "cutting";
   kind.description = "cuts scans";
   kind.program = "quoin-cutting";
-  kind.input = MessageType::scan;
-  kind.output = MessageType::segments;
+  kind.inputs = {{"scan", "scan"}};
+  kind.outputs = {{"segments"}};
   kind.methods = {{"saw",
                    "cuts slowly",
                    "Smith 1900",

@@ -33,8 +33,12 @@ MeasuredFigures figures() {
   return figures;
 }
 
+std::string page_of(const KindInfo& kind, const MeasuredFigures* figures) {
+  return methods_page({&kind}, figures);
+}
+
 TEST(MethodsPage, TellsEachMethod) {
-  const std::string page = methods_page({kind_of_two_methods()}, nullptr);
+  const std::string page = page_of(kind_of_two_methods(), nullptr);
   EXPECT_THAT(page, HasSubstr("## cutting\n\nCuts scans. Reads scan, publishes segments.\n\n"));
   EXPECT_THAT(page, HasSubstr("### saw (default)\n\nCuts slowly.\n\nSource: Smith 1900.\n\n"
                               "When to choose it: For wood.\n\n"));
@@ -45,7 +49,7 @@ TEST(MethodsPage, TellsEachMethod) {
 }
 
 TEST(MethodsPage, TellsSharedParametersOnce) {
-  const std::string page = methods_page({kind_of_two_methods()}, nullptr);
+  const std::string page = page_of(kind_of_two_methods(), nullptr);
   const std::size_t shared = page.find("| depth ");
   EXPECT_LT(shared, page.find("### saw"));
   EXPECT_EQ(page.find("| depth ", shared + 1), std::string::npos);
@@ -56,21 +60,22 @@ TEST(MethodsPage, TellsSharedParametersOnce) {
   EXPECT_THAT(page, HasSubstr("| angle     | 1.5708 (90 deg) | rad "));
   KindInfo alone = kind_of_two_methods();
   alone.methods.resize(1);
-  EXPECT_THAT(methods_page({alone}, nullptr), Not(HasSubstr("All of its methods")));
+  EXPECT_THAT(methods_page({&alone}, nullptr), Not(HasSubstr("All of its methods")));
 }
 
 TEST(MethodsPage, LeavesOutKindsWithoutMethods) {
   KindInfo source;
   source.name = "lidar";
   source.parameters = {parameter("speed", "2")};
-  const std::string page = methods_page({source, kind_of_two_methods()}, nullptr);
+  const KindInfo cutting = kind_of_two_methods();
+  const std::string page = methods_page({&source, &cutting}, nullptr);
   EXPECT_THAT(page, Not(HasSubstr("lidar")));
   EXPECT_THAT(page, Not(HasSubstr("speed")));
 }
 
 TEST(MethodsPage, HasFiguresOfSegmenters) {
   const MeasuredFigures measured = figures();
-  const std::string page = methods_page({kind_of_two_methods()}, &measured);
+  const std::string page = page_of(kind_of_two_methods(), &measured);
   EXPECT_THAT(page, HasSubstr("### Figures of cutting\n\n"));
   EXPECT_THAT(page, HasSubstr("version 1.2.3, seed 7"));
   EXPECT_THAT(page, HasSubstr("| segmenter | 3 mm, 0.113 deg | 50 mm, 0.113 deg |\n"
@@ -85,9 +90,9 @@ TEST(MethodsPage, HasFiguresOfSegmenters) {
 
 TEST(MethodsPage, HasFiguresOfFitters) {
   KindInfo fitting = kind_of_two_methods();
-  fitting.output = MessageType::lines;
+  fitting.outputs = {{"lines"}};
   MeasuredFigures measured = figures();
-  const std::string page = methods_page({fitting}, &measured);
+  const std::string page = methods_page({&fitting}, &measured);
   EXPECT_THAT(page, HasSubstr("2000 trials each"));
   EXPECT_THAT(page, HasSubstr("room, noise 50 mm, 0.113 deg:\n\n"
                               "| fitter | covariance | NEES | coverage [%] | RMSE/CRB |\n"
@@ -98,18 +103,18 @@ TEST(MethodsPage, HasFiguresOfFitters) {
               HasSubstr("| wctls            |    100 |     0.150 |                   2.0 |\n"
                         "| plain_covariance |    100 |     0.074 |                   1.0 |\n"));
   for (FitTimeFigures& time : measured.fit_times) time.seconds.reset();
-  EXPECT_THAT(methods_page({fitting}, &measured), Not(HasSubstr("plain_covariance")));
+  EXPECT_THAT(methods_page({&fitting}, &measured), Not(HasSubstr("plain_covariance")));
 }
 
 TEST(MethodsPage, IsWithoutFiguresWhereNothingWasMeasured) {
   const MeasuredFigures nothing;
-  EXPECT_EQ(methods_page(deploy::kinds(), &nothing), methods_page(deploy::kinds(), nullptr));
+  EXPECT_EQ(methods_page(kinds().kinds, &nothing), methods_page(kinds().kinds, nullptr));
 }
 
 TEST(MethodsPage, FiguresAreAddedToThePageWithout) {
   const MeasuredFigures measured = figures();
-  const std::string page = methods_page(deploy::kinds(), &measured);
-  std::string plain = methods_page(deploy::kinds(), nullptr);
+  const std::string page = methods_page(kinds().kinds, &measured);
+  std::string plain = methods_page(kinds().kinds, nullptr);
   EXPECT_GT(page.size(), plain.size());
   for (std::size_t end = 0; (end = plain.find("\n\n")) != std::string::npos;) {
     EXPECT_THAT(page, HasSubstr(plain.substr(0, end + 1)));
