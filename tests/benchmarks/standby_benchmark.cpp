@@ -44,7 +44,7 @@ class Listener {
   explicit Listener(const tests::TestDeployment& deployment)
       : participant_(deployment.participant("benchmark")),
         reader_(participant_, deployment.topic("walls"),
-                runtime::output_qos(deployment.deployment().service("walls"))) {
+                runtime::output_qos(deployment.deployment().service("walls"), deployment.output("walls"))) {
     wait_set_.add(reader_);
   }
 

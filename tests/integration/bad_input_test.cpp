@@ -115,8 +115,8 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
   }
   ASSERT_TRUE(recorder.wait_for(2));
   EXPECT_EQ(topics::sequence_number(recorder.messages()[1].header()), 2U);
-  EXPECT_THAT(recorder.accounting().lost_by_stage(),
-              testing::ElementsAre(testing::Pair("wctls", 1)));
+  EXPECT_THAT(recorder.accounting().lost_by_site(),
+              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, 1)));
   EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));
   EXPECT_EQ(status.latest("wctls").published(), 2U);
   EXPECT_EQ(status.latest("wctls").lost(), 1U);

@@ -158,8 +158,8 @@ TEST(Chain, ALateReaderGetsEveryScanFromThenOn) {
   }));
   EXPECT_GE(*late.accounting().first_sequence(), 50U);
   // What a stage did not get in time on a busy machine, it did not publish.
-  EXPECT_EQ(late.accounting().lost_by_stage().count("link"), 0U);
-  EXPECT_EQ(early.accounting().lost_by_stage().count("link"), 0U);
+  EXPECT_EQ(late.accounting().lost_by_site().count({runtime::LossPlace::link}), 0U);
+  EXPECT_EQ(early.accounting().lost_by_site().count({runtime::LossPlace::link}), 0U);
 }
 
 TEST(Chain, ALateFitterJoinsTheRunningChain) {

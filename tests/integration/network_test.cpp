@@ -224,7 +224,7 @@ TEST_F(Network, WithPeersALateHostACutAndAPowerFailureAreCaughtUpWithAndEachScan
   EXPECT_NE(robot.latest("walls").incarnation(), walls);
 
   const json corners = robot.stop_all()["corners"];
-  EXPECT_GT(corners["lost_by_stage"]["start"], 0) << corners;
+  EXPECT_GT(corners["lost_at_start"], 0) << corners;
   EXPECT_GT(corners["lost_by_stage"]["walls"], scans_of_a_cut / 2) << corners;
 }
 
@@ -443,6 +443,7 @@ TEST_F(Network, TheRobotOfTheExampleAccountsForEachScanThroughASwapAKillAndACut)
   for (const auto& [stage, count] : figures["corners"]["lost_by_stage"].items()) {
     EXPECT_EQ(stage, "wctls") << robot.logs();
   }
+  EXPECT_EQ(figures["corners"]["lost_on_link"], 0) << robot.logs();
 }
 
 TEST_F(Network, ALosslessWriterGoesOnWhenTheLeaseOfAReaderThatWasCutHasEnded) {

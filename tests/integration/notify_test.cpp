@@ -10,7 +10,8 @@
 
 #include <gmock/gmock.h>
 
-#include "services/runtime/node/stage.hpp"
+#include "services/runtime/node/run_node.hpp"
+#include "services/segmentation/kind.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/services/runtime/notify_socket.hpp"
@@ -94,7 +95,7 @@ TEST(Notify, AStageWhoseMethodHangsIsNotReportedAlive) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     const int exit_code = runtime::run_stage<msg::Scan, msg::Segments>(
-        static_cast<int>(arguments.size()), arguments.data(), "segmentation",
+        static_cast<int>(arguments.size()), arguments.data(), segmentation_kind(),
         [&](const std::string&, const ParameterSettings&) {
           return [&](const msg::Scan&, msg::Segments&) -> std::size_t {
             obstacle.meet();

@@ -54,8 +54,8 @@ TEST(Restart, AKilledStageThatComesBackIsCaughtUpWithAndItsLossesAreItsOwn) {
   // killed.
   EXPECT_EQ(recorder.accounting().received() + recorder.accounting().lost(), published);
   EXPECT_GT(recorder.accounting().lost(), 0U);
-  EXPECT_THAT(recorder.accounting().lost_by_stage(),
-              testing::ElementsAre(testing::Pair("walls", testing::Gt(0U))));
+  EXPECT_THAT(recorder.accounting().lost_by_site(),
+              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "walls"}, testing::Gt(0U))));
   EXPECT_EQ(recorder.accounting().duplicates(), 0U);
 }
 

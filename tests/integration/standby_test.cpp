@@ -105,8 +105,8 @@ TEST_F(Standby, TakesOverFromAKilledAndFromAHungInstanceUntilThatReturns) {
   const runtime::ScanAccounting& accounting = recorder_.accounting();
   EXPECT_EQ(accounting.duplicates(), 0U);
   EXPECT_EQ(accounting.received() + accounting.lost(), published);
-  EXPECT_THAT(accounting.lost_by_stage(),
-              testing::ElementsAre(testing::Pair("wctls", testing::Gt(0U))));
+  EXPECT_THAT(accounting.lost_by_site(),
+              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, testing::Gt(0U))));
   stop(corners, "corners");
   EXPECT_EQ(status_.latest("corners").received(), accounting.received());
   EXPECT_EQ(status_.latest("corners").lost(), 0U);
@@ -149,6 +149,7 @@ TEST(StandbyCommands, KnowEachInstance) {
   EXPECT_EQ(corners["scans_delivered"].get<int>() + corners["scans_lost"].get<int>(),
             corners["scans_expected"].get<int>());
   for (const auto& [stage, count] : corners["lost_by_stage"].items()) EXPECT_EQ(stage, "wctls");
+  EXPECT_EQ(corners["lost_on_link"], 0);
 }
 
 }  // namespace

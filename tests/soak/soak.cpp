@@ -86,11 +86,12 @@ ordered_json judge_scans(const ordered_json& summary, Verdict& verdict) {
   result["published"] = published;
   for (const auto& [name, corners] : summary.at("corners").items()) {
     const auto delivered = corners.at("scans_delivered").get<std::uint64_t>();
-    std::uint64_t lost = 0;
-    for (const auto& [stage, count] : corners.at("lost_by_stage").items()) {
-      lost += count.get<std::uint64_t>();
-    }
-    result[name] = {{"delivered", delivered}, {"lost", corners.at("lost_by_stage")}};
+    const auto lost = corners.at("scans_lost").get<std::uint64_t>();
+    result[name] = {{"delivered", delivered},
+                    {"lost_by_stage", corners.at("lost_by_stage")},
+                    {"lost_on_link", corners.at("lost_on_link")},
+                    {"lost_at_start", corners.at("lost_at_start")},
+                    {"lost_at_end", corners.at("lost_at_end")}};
     verdict.require(delivered > 0, name + " delivered nothing");
     verdict.require(delivered + lost == published,
                     name + ": " + std::to_string(delivered) + " scans delivered and " +

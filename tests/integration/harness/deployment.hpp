@@ -33,7 +33,11 @@ class TestDeployment {
   [[nodiscard]] const TemporaryFolder& directory() const { return directory_; }
   [[nodiscard]] const Deployment& deployment() const { return deployment_; }
   [[nodiscard]] std::string topic(const std::string& service) const {
-    return output_topic(deployment_, deployment_.service(service));
+    return output(service).topic;
+  }
+  /// The first one of a service.
+  [[nodiscard]] const OutputConfig& output(const std::string& service) const {
+    return deployment_.service(service).outputs.front();
   }
   [[nodiscard]] runtime::ParticipantConfig participant(const std::string& name) const {
     return runtime::participant_config(deployment_, name);
@@ -58,7 +62,7 @@ class Recorder {
   Recorder(runtime::Participant& participant, const TestDeployment& deployment,
            const std::string& service)
       : reader_(participant, deployment.topic(service),
-                runtime::output_qos(deployment.deployment().service(service))) {}
+                runtime::output_qos(deployment.deployment().service(service), deployment.output(service))) {}
 
   /// Takes what is there; returns the number of messages so far.
   std::size_t poll() {
