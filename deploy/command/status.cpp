@@ -15,7 +15,7 @@
 #include "deploy/command/network_options.hpp"
 #include "deploy/observation/summary.hpp"
 #include "deploy/observation/table.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::deploy {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "services/keys/key_files.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/runtime/process/heartbeat.hpp"
 
 namespace quoin::deploy {

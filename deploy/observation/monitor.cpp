@@ -6,7 +6,7 @@
 
 #include "services/keys/key_files.hpp"
 #include "deploy/observation/heartbeats.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/runtime/dds/qos.hpp"
 

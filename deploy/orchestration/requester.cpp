@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "services/deployment/deployment.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::deploy {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

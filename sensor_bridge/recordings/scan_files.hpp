@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sensor_bridge/recordings/line_reader.hpp"
-#include "sensor_bridge/replay/parameters.hpp"
+#include "sensor_bridge/recordings/parameters.hpp"
 #include "sensor_bridge/recordings/recorded_scan.hpp"
 
 namespace quoin::sensor_bridge {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sensor_bridge/replay/parameters.hpp"
+#include "sensor_bridge/recordings/parameters.hpp"
 #include "services/deployment/kind.hpp"
 
 namespace quoin::sensor_bridge {

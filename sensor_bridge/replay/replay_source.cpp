@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "sensor_bridge/replay/parameters.hpp"
+#include "sensor_bridge/recordings/parameters.hpp"
 #include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/scan_declaration.hpp"

@@ -10,7 +10,7 @@
 #include "sensor_bridge/simulated/revolution_timer.hpp"
 #include "sensor_bridge/simulated/scanner_settings.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

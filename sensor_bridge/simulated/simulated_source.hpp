@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "services/runtime/node/source.hpp"
+#include "services/runtime/process/source.hpp"
 
 namespace quoin::sensor_bridge {
 

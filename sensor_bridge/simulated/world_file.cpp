@@ -14,8 +14,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/parameters/suggestion.hpp"
-#include "sensor_bridge/recordings/excerpt.hpp"
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

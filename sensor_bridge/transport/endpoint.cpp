@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

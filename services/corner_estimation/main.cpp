@@ -5,7 +5,7 @@
 #include "core/corners/corner_finders.hpp"
 #include "services/topics/corners.hpp"
 #include "services/topics/lines.hpp"
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/corner_estimation/kind.hpp"
 
 using namespace quoin;

@@ -6,11 +6,8 @@
 #include <stdexcept>
 
 #include "services/keys/certificate.hpp"
-#include "services/keys/governance.hpp"
+#include "services/keys/documents.hpp"
 #include "services/keys/key_files.hpp"
-#include "services/keys/permissions.hpp"
-#include "services/keys/private_file.hpp"
-#include "services/keys/signed_document.hpp"
 
 namespace quoin {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/keys/certificate.hpp"
-#include "services/keys/permissions.hpp"
+#include "services/keys/documents.hpp"
 
 namespace quoin {
 

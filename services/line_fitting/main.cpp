@@ -6,7 +6,7 @@
 #include "core/fitting/fitters.hpp"
 #include "services/topics/lines.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/line_fitting/kind.hpp"
 
 using namespace quoin;

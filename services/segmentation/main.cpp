@@ -4,7 +4,7 @@
 
 #include "core/segmentation/segmenters.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
 
 using namespace quoin;

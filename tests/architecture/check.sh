@@ -26,24 +26,27 @@ deny sensor_bridge "$dds|spdlog" "sensor_bridge/ reaches DDS through the service
 deny sensor_bridge/rplidar/protocol '(core|idl|services|deploy|sensor_bridge|sys)/|iostream|fstream|unistd' \
   "the RPLIDAR protocol knows nobody and does no input or output" \
   'sensor_bridge/rplidar/protocol/[a-z_]+\.hpp"$'
-deny sensor_bridge/rplidar/transport 'core/|deploy/|idl/|services/|sensor_bridge/rplidar/(driver|emulator)' \
-  "the RPLIDAR transport knows nobody but the protocol"
+deny sensor_bridge/transport 'core/|deploy/|idl/|services/|sensor_bridge/(rplidar|recordings|replay|simulated)/' \
+  "the transport knows no device and no format"
+deny sensor_bridge/recordings 'deploy/|idl/|services/|sensor_bridge/(rplidar|simulated|transport)/' \
+  "file formats know no device and no message"
 deny sensor_bridge/rplidar/driver 'core/|deploy/|idl/|services/|sensor_bridge/rplidar/emulator' \
   "the RPLIDAR driver knows protocol and transport"
-deny sensor_bridge/rplidar/emulator 'deploy/|idl/|services/|sensor_bridge/rplidar/(driver|transport)' \
-  "the RPLIDAR emulator knows the protocol and simulated worlds"
+deny sensor_bridge/rplidar/emulator 'deploy/|idl/|services/|sensor_bridge/(rplidar/driver|transport)' \
+  "the RPLIDAR emulator knows the protocol and simulated worlds" 'sensor_bridge/transport/file_descriptor\.hpp"$'
 deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
 deny deploy 'core/(segmentation|fitting|corners)/' "deploy/ reaches methods through the method lists" \
   'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?)\.hpp'
 # `quoin evaluate` is there to run methods; what starts and watches processes runs none.
-deny deploy 'core/(evaluation/(consistency|extraction|loop_coverage|segmentation_quality)|simulation)' \
+deny deploy 'core/(evaluation/(consistency|loop_coverage|segmentation_quality)|extraction|simulation)' \
   "deploy/ runs no methods outside deploy/evaluation" '^deploy/evaluation/'
-deny deploy/evaluation 'deploy/(deployment|quoin|supervision)/|idl/|services/' \
+deny deploy/evaluation 'deploy/(orchestration|command|diagnostics)/|idl/|services/(runtime|topics|keys)/' \
   "the evaluation needs no DDS and no deployment"
-deny deploy/deployment 'idl/|services/' "the deployment reader needs no DDS"
-deny deploy/doctor 'idl/|services/|deploy/quoin/' "the doctor is told what was heard on the network"
-deny deploy/keys 'idl/|services/|yaml-cpp' "what makes keys needs no DDS"
-deny deploy/methods 'idl/|services/' "what describes methods needs no DDS"
+deny deploy/diagnostics 'idl/|services/(runtime|topics)/|deploy/(orchestration|command)/' \
+  "the doctor is told what was heard on the network"
+deny services/deployment 'idl/|services/(keys|runtime)/' "the deployment reader needs no DDS"
+deny services/keys 'idl/|services/(topics|runtime)/|yaml-cpp' "what makes keys needs no DDS"
+deny services/runtime/node "$dds|CLI/|sys/" "a node knows no process and no Fast DDS"
 deny services/topics "$dds|services/runtime/" "topics need no DDS; one file knows its serialisation" \
   '^services/topics/cdr_codec\.cpp:.*<fastcdr/'
 deny services 'fastdds|fastrtps|.*PubSubTypes\.h' "only services/runtime/dds names Fast DDS" \
@@ -52,8 +55,8 @@ for file in topic_types cdr_json idl_parser message_text; do
   deny "services/topics/$file.hpp" 'idl/' "the table, JSON and text need no generated code"
   deny "services/topics/$file.cpp" 'idl/' "the table, JSON and text need no generated code"
 done
-for stage in segmentation line_fitting corner_estimation; do
-  deny "services/$stage" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"
+for main in services/*/main.cpp; do
+  deny "$(dirname "$main")" "$dds|yaml-cpp|deploy/|sensor_bridge/" "a service knows core, idl and the service kit"
 done
 deny tests/interoperability 'core/|deploy/|idl/|sensor_bridge/|services/|tests/' \
   "the programs of another DDS know nothing but our IDL files"
@@ -65,7 +68,7 @@ sources() {
 }
 
 missing=$(sources -name '*.[ch]pp' -o -name '*.[ch]' -o -name '*.idl' -o -name '*.sh' -o -name CMakeLists.txt -o -name '*.yaml' |
-  grep -v '^tests/deploy/malformed/' | xargs grep -LE 'SPDX-License-Identifier: Apache-2\.0')
+  grep -v '^tests/services/deployment/malformed/' | xargs grep -LE 'SPDX-License-Identifier: Apache-2\.0')
 if [[ -n $missing ]]; then
   printf 'no SPDX header:\n%s\n' "$missing"
   violations=$((violations + 1))

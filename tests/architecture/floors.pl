@@ -14,10 +14,14 @@ chdir($ARGV[0] // die "source tree\n") or die "no source tree: $!\n";
 # those below it. Floors of one number do not know each other.
 my @floors = (
     [ 'core/',                           0 ],
+    [ 'sensor_bridge/number.hpp',        1 ],
+    [ 'sensor_bridge/excerpt.hpp',       1 ],
+    [ 'sensor_bridge/range_limits.hpp',  1 ],
     [ 'sensor_bridge/transport/',        1 ],
     [ 'sensor_bridge/rplidar/protocol/', 1 ],
     [ 'sensor_bridge/rplidar/driver/',   2 ],
     [ 'sensor_bridge/recordings/',       2 ],
+    [ 'sensor_bridge/simulated/world_file', 2 ],
     [ 'services/topics/',                3 ],
     [ 'services/deployment/',            4 ],
     [ 'services/keys/',                  5 ],

@@ -27,7 +27,7 @@
 
 #include "core/simulation/scanner.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"

@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/keys.hpp"

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/temporary_folder.hpp"

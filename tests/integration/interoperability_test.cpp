@@ -9,6 +9,11 @@
 #include <map>
 #include <sstream>
 
+#include <idl/Corners.h>
+#include <idl/Lines.h>
+#include <idl/Scan.h>
+#include <idl/Segments.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

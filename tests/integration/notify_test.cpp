@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"

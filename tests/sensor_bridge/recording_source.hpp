@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "services/runtime/node/source.hpp"
+#include "services/runtime/process/source.hpp"
 
 namespace quoin::tests {
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/rplidar/driver/reply_reading.hpp"
 
 namespace quoin::sensor_bridge::rplidar {

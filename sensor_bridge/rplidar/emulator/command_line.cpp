@@ -8,8 +8,8 @@
 #include <tuple>
 #include <type_traits>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 #include "sensor_bridge/rplidar/emulator/fault.hpp"
 
 namespace quoin::sensor_bridge::rplidar {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/excerpt.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

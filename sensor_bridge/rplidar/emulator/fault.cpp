@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "core/parameters/suggestion.hpp"
-#include "sensor_bridge/recordings/excerpt.hpp"
-#include "sensor_bridge/recordings/number.hpp"
+#include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

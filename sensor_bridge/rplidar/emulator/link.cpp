@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/parameters/suggestion.hpp"
-#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 #include "sensor_bridge/rplidar/emulator/tcp_server.hpp"
 #include "sensor_bridge/rplidar/emulator/udp_server.hpp"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/excerpt.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

@@ -11,7 +11,7 @@
 #include "sensor_bridge/rplidar/service/parameters.hpp"
 #include "sensor_bridge/rplidar/service/scan_conversion.hpp"
 #include "sensor_bridge/transport/find_port.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

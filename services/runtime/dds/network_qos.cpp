@@ -8,7 +8,7 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/dds/network_qos_impl.hpp"
+#include "services/runtime/dds/qos_impl.hpp"
 
 namespace quoin::runtime {
 

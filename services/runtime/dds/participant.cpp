@@ -11,9 +11,9 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "services/keys/key_check.hpp"
-#include "services/runtime/dds/cdr_type_impl.hpp"
+#include "services/runtime/dds/endpoints_impl.hpp"
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/dds/network_qos_impl.hpp"
+#include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/participant_impl.hpp"
 #include "services/runtime/dds/security.hpp"
 

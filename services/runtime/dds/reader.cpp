@@ -8,9 +8,8 @@
 #include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
-#include "services/runtime/dds/cdr_type_impl.hpp"
+#include "services/runtime/dds/endpoints_impl.hpp"
 #include "services/runtime/dds/qos_impl.hpp"
-#include "services/runtime/dds/reader_impl.hpp"
 
 namespace quoin::runtime {
 

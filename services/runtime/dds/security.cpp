@@ -2,16 +2,191 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/dds/security.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <mutex>
+#include <sstream>
 
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/rtps/common/Token.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
-#include "services/runtime/dds/refusals.hpp"
 
 namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto pause = std::chrono::minutes(1);  // between two lines of one text
+constexpr std::size_t most_texts = 30;           // in that time; strangers choose their names
+constexpr std::size_t most_names = 1000;
+constexpr std::size_t longest_name = 80;
+constexpr const char* command_log = "quoin";
+
+/// What a stranger calls itself, fit for a log.
+std::string printable(std::string text) {
+  text.resize(std::min(text.size(), longest_name));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~' || c == '\''; }, '?');
+  return text;
+}
+
+std::string text_of(const rtps::GuidPrefix_t& prefix) {
+  std::ostringstream text;
+  text << prefix;
+  return text.str();
+}
+
+/// The services' logs tell; commands, whose output belongs to what they were asked, tell errors
+/// only.
+bool is_command() {
+  if (spdlog::default_logger()->name().empty()) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt(command_log));
+  }
+  return spdlog::default_logger()->name() == command_log;
+}
+
+/// Of this process, whose participants share the log of Fast DDS.
+class Refusals {
+ public:
+  static Refusals& instance() {
+    static Refusals refusals;
+    return refusals;
+  }
+
+  void tell(const std::string& text, spdlog::level::level_enum level = spdlog::level::warn) {
+    if (quiet_ && level < spdlog::level::err) return;
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    std::erase_if(told_, [&](const auto& entry) { return now - entry.second > pause; });
+    if (told_.size() > most_texts || !told_.emplace(text, now).second) return;
+    spdlog::log(level, "{}{}", text,
+                told_.size() > most_texts ? "; more is not told for a minute" : "");
+  }
+
+  void learn(const std::string& prefix, const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    if (names_.size() < most_names) names_[prefix] = printable(name);
+  }
+  void forget(const std::string& prefix) {
+    const std::lock_guard lock(mutex_);
+    names_.erase(prefix);
+  }
+  /// "participant 'NAME'", or by its GUID.
+  std::string participant(const std::string& prefix) {
+    const std::lock_guard lock(mutex_);
+    const auto found = names_.find(prefix);
+    return "participant '" + (found == names_.end() ? prefix : found->second) + "'";
+  }
+
+ private:
+  Refusals() : quiet_(is_command()) {}
+
+  bool quiet_;
+  std::mutex mutex_;
+  std::map<std::string, std::string> names_;  // by the prefix of the GUID
+  std::map<std::string, Clock::time_point> told_;
+};
+
+/// Takes over the log of Fast DDS, where permissions that are missing show.
+class Consumer : public dds::LogConsumer {
+ public:
+  void Consume(const dds::Log::Entry& entry) override {
+    const std::string function = entry.context.function == nullptr ? "" : entry.context.function;
+    // The caller tells the same with the GUID.
+    if (function.rfind("check_remote_", 0) == 0) return;
+    if (tell_missing_permission(entry.message)) return;
+    // Where in Fast DDS's sources it was is of no use here.
+    Refusals::instance().tell("Fast DDS: " + entry.message.substr(0, entry.message.find(" (./src")),
+                              spdlog::level::err);
+  }
+
+ private:
+  /// "Error checking create remote writer GUID (TOPIC topic not found in allow rule. ...)".
+  static bool tell_missing_permission(const std::string& message) {
+    static const std::string begin = "Error checking create remote ";
+    const std::size_t guid = begin.size() + std::string("writer ").size();
+    const std::size_t guid_end = message.find('|');
+    const std::size_t topic = message.find(" (");
+    const std::size_t topic_end = message.find(" topic not found");
+    if (message.rfind(begin, 0) != 0 || guid_end == std::string::npos || guid_end < guid ||
+        topic == std::string::npos || topic_end == std::string::npos || topic_end < topic + 2) {
+      return false;
+    }
+    const bool writer = message.compare(begin.size(), 6, "writer") == 0;
+    Refusals::instance().tell(
+        "refused " + Refusals::instance().participant(message.substr(guid, guid_end - guid)) +
+        (writer ? ": no permission to write " : ": no permission to read ") +
+        printable(message.substr(topic + 2, topic_end - topic - 2)));
+    return true;
+  }
+};
+
+class Listener : public KnownEndpoints {
+ public:
+  Listener(const std::string& own_name, std::string authority)
+      : KnownEndpoints(own_name), authority_(std::move(authority)) {}
+
+  void on_participant_discovery(dds::DomainParticipant* participant,
+                                rtps::ParticipantDiscoveryInfo&& info) override {
+    tell_of(info);
+    KnownEndpoints::on_participant_discovery(participant, std::move(info));
+  }
+
+  void onParticipantAuthentication(dds::DomainParticipant*,
+                                   rtps::ParticipantAuthenticationInfo&& info) override {
+    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
+    Refusals& refusals = Refusals::instance();
+    refusals.tell("refused " + refusals.participant(text_of(info.guid.guidPrefix)) +
+                  ": its identity is missing, foreign, expired or revoked");
+  }
+
+ private:
+  void tell_of(const rtps::ParticipantDiscoveryInfo& info) const {
+    using Info = rtps::ParticipantDiscoveryInfo;
+    Refusals& refusals = Refusals::instance();
+    const std::string prefix = text_of(info.info.m_guid.guidPrefix);
+    if (info.status == Info::REMOVED_PARTICIPANT || info.status == Info::DROPPED_PARTICIPANT) {
+      refusals.forget(prefix);
+      return;
+    }
+    refusals.learn(prefix, info.info.m_participantName.to_string());
+    const std::string* authority =
+        rtps::DataHolderHelper::find_property_value(info.info.identity_token_, "dds.ca.sn");
+    if (authority == nullptr) {
+      refusals.tell("refused " + refusals.participant(prefix) + ": it has no identity");
+    } else if (*authority != "/CN=" + authority_) {
+      // A handshake that the stranger has to begin may never come, hence not left to that.
+      refusals.tell("refused " + refusals.participant(prefix) +
+                    ": its identity is of another authority");
+    }
+  }
+
+  std::string authority_;
+};
+
+}  // namespace
+
+std::unique_ptr<KnownEndpoints> tell_refusals(const std::string& own_name,
+                                              const std::string& authority) {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    (void)Refusals::instance();  // made before, and so gone after, what calls it
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<Consumer>());
+  });
+  return std::make_unique<Listener>(own_name, authority);
+}
 
 namespace dds = eprosima::fastdds::dds;
 

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "services/runtime/dds/cdr_type_impl.hpp"
+#include "services/runtime/dds/endpoints_impl.hpp"
 #include "services/runtime/dds/qos_impl.hpp"
-#include "services/runtime/dds/writer_impl.hpp"
 
 namespace quoin::runtime {
 

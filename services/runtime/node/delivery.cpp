@@ -7,7 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::runtime {
 

@@ -7,8 +7,8 @@
 #include <idl/Common.h>
 
 #include "services/runtime/node/ports.hpp"
-#include "services/runtime/process/pulse.hpp"
-#include "services/runtime/process/service_record.hpp"
+#include "services/runtime/node/pulse.hpp"
+#include "services/runtime/node/service_record.hpp"
 
 namespace quoin::runtime {
 

@@ -8,7 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/topics/header.hpp"
 
 namespace quoin::runtime {

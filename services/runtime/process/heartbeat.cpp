@@ -33,7 +33,8 @@ void Heartbeat::run() {
 
 void Heartbeat::publish() {
   const std::lock_guard lock(write_mutex_);
-  const msg::ServiceStatus status = record_.snapshot();
+  msg::ServiceStatus status = record_.snapshot();
+  status.resident_memory(resident_memory());
   writer_.write(status);
   tell_supervisor(status);
 }

@@ -11,7 +11,7 @@
 
 #include "services/runtime/dds/writer.hpp"
 #include "services/runtime/process/memory.hpp"
-#include "services/runtime/process/service_record.hpp"
+#include "services/runtime/node/service_record.hpp"
 #include "services/runtime/process/supervisor_link.hpp"
 
 namespace quoin::runtime {

@@ -14,7 +14,7 @@
 #include "services/runtime/node/delivery.hpp"
 #include "services/runtime/node/succession.hpp"
 #include "services/runtime/process/heartbeat.hpp"
-#include "services/runtime/process/service_record.hpp"
+#include "services/runtime/node/service_record.hpp"
 #include "services/runtime/process/stop_signal.hpp"
 
 namespace quoin::runtime {

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "services/runtime/process/pulse.hpp"
+#include "services/runtime/node/pulse.hpp"
 
 namespace quoin::runtime {
 

@@ -7,11 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/keys/governance.hpp"
+#include "services/keys/documents.hpp"
 #include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
-#include "services/keys/private_file.hpp"
-#include "services/keys/signed_document.hpp"
 #include "tests/temporary_folder.hpp"
 #include "deploy/kinds/kinds.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/runtime/node/source.hpp"
+#include "services/runtime/process/source.hpp"
 
 #include <exception>
 #include <optional>
 
 #include <spdlog/spdlog.h>
 
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/runtime/process/control.hpp"
 #include "services/runtime/node/node.hpp"
 #include "services/runtime/process/service_activity.hpp"

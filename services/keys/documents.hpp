@@ -10,6 +10,10 @@
 
 namespace quoin {
 
+/// The governance document of DDS Security 1.1 for every domain: nobody joins, reads or writes
+/// without permission, and messages are encrypted, or signed only.
+[[nodiscard]] std::string governance_text(bool encrypt);
+
 /// Topics of one domain that an identity may write and read; * stands for any characters.
 struct TopicRule {
   int domain = 0;
@@ -31,5 +35,13 @@ struct TopicRule {
 
 /// A point in time as it stands in the document (UTC).
 [[nodiscard]] std::string permissions_time(std::chrono::system_clock::time_point time);
+
+/// `text` and the authority's signature of it as an S/MIME message of two parts, the form in which
+/// DDS Security wants governance and permissions.
+[[nodiscard]] std::string sign_document(const std::string& text, const KeyPair& authority);
+
+/// The text of such a message, with line ends as they were. Throws std::runtime_error when the
+/// authority has not signed it.
+[[nodiscard]] std::string verify_document(const std::string& document, X509* authority);
 
 }  // namespace quoin

@@ -74,7 +74,7 @@ class ServiceRecord {
   void close();
   [[nodiscard]] bool closed() const;
 
-  /// All of it as it is now.
+  /// All of it as it is now, but for the memory of the process.
   [[nodiscard]] msg::ServiceStatus snapshot();
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/keys/permissions.hpp"
+#include "services/keys/documents.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <set>
 
@@ -9,6 +10,41 @@
 #include "services/keys/key_files.hpp"
 
 namespace quoin {
+
+std::string governance_text(bool encrypt) {
+  const std::string kind = encrypt ? "ENCRYPT" : "SIGN";
+  // Content is encrypted (or signed) and each submessage signed with keys that only the readers and
+  // writers of the topic get. Whole messages are not signed on top of that: Fast DDS 2.9 then fills
+  // them until there is no room for the signature, and ends the process when many are sent again.
+  return R"(<?xml version="1.0" encoding="UTF-8"?>
+<dds>
+  <domain_access_rules>
+    <domain_rule>
+      <domains><id_range><min>0</min><max>232</max></id_range></domains>
+      <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
+      <enable_join_access_control>true</enable_join_access_control>
+      <discovery_protection_kind>)" +
+         kind + R"(</discovery_protection_kind>
+      <liveliness_protection_kind>)" +
+         kind + R"(</liveliness_protection_kind>
+      <rtps_protection_kind>NONE</rtps_protection_kind>
+      <topic_access_rules>
+        <topic_rule>
+          <topic_expression>*</topic_expression>
+          <enable_discovery_protection>true</enable_discovery_protection>
+          <enable_liveliness_protection>true</enable_liveliness_protection>
+          <enable_read_access_control>true</enable_read_access_control>
+          <enable_write_access_control>true</enable_write_access_control>
+          <metadata_protection_kind>SIGN</metadata_protection_kind>
+          <data_protection_kind>)" +
+         kind + R"(</data_protection_kind>
+        </topic_rule>
+      </topic_access_rules>
+    </domain_rule>
+  </domain_access_rules>
+</dds>
+)";
+}
 
 namespace {
 
@@ -87,6 +123,37 @@ std::string permissions_text(const std::string& identity, const Validity& validi
   </permissions>
 </dds>
 )";
+}
+
+std::string sign_document(const std::string& text, const KeyPair& authority) {
+  // Signed while it is written, hence PKCS7_STREAM.
+  constexpr int flags = PKCS7_DETACHED | PKCS7_TEXT | PKCS7_STREAM;
+  const OpensslBio content = memory_bio(text);
+  const OpensslBio document = memory_bio();
+  const OpensslSigned signature(
+      PKCS7_sign(authority.certificate.get(), authority.key.get(), nullptr, content.get(), flags));
+  require(signature != nullptr &&
+              SMIME_write_PKCS7(document.get(), signature.get(), content.get(), flags) == 1,
+          "sign a document");
+  return text_of(document.get());
+}
+
+std::string verify_document(const std::string& document, X509* authority) {
+  const OpensslBio input = memory_bio(document);
+  BIO* detached = nullptr;
+  const OpensslSigned signature(SMIME_read_PKCS7(input.get(), &detached));
+  const OpensslBio content(detached);
+  require(signature != nullptr, "read it as a signed document");
+  const std::unique_ptr<X509_STORE, OpensslDeleter<X509_STORE_free>> store(X509_STORE_new());
+  require(store != nullptr && X509_STORE_add_cert(store.get(), authority) == 1,
+          "check a signed document");
+  const OpensslBio output = memory_bio();
+  require(PKCS7_verify(signature.get(), nullptr, store.get(), content.get(), output.get(),
+                       PKCS7_TEXT) == 1,
+          "verify a signed document");
+  std::string text = text_of(output.get());
+  std::erase(text, '\r');
+  return text;
 }
 
 }  // namespace quoin

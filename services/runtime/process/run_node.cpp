@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 
 #include <algorithm>
 #include <chrono>

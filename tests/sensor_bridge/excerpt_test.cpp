@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/excerpt.hpp"
+#include "sensor_bridge/excerpt.hpp"
 
 #include <gtest/gtest.h>
 

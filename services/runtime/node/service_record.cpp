@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/runtime/process/service_record.hpp"
+#include "services/runtime/node/service_record.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/process/clock.hpp"
-#include "services/runtime/process/memory.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::runtime {
 
@@ -170,7 +169,6 @@ bool ServiceRecord::closed() const {
 }
 
 msg::ServiceStatus ServiceRecord::snapshot() {
-  const std::uint64_t resident = resident_memory();
   const std::lock_guard lock(mutex_);
   changed_state_ = false;
   const std::int64_t now = now_ns();
@@ -195,7 +193,6 @@ msg::ServiceStatus ServiceRecord::snapshot() {
   status_.latency_p99(latency_.quantile(0.99));
   status_.processing_p50(processing_.quantile(0.5));
   status_.processing_p99(processing_.quantile(0.99));
-  status_.resident_memory(resident);
   const std::vector<std::string> known = status_.incompatible_qos();
   if (endpoint_report_) endpoint_report_(status_);
   for (const std::string& mismatch : status_.incompatible_qos()) {

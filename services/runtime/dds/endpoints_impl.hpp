@@ -4,11 +4,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <set>
 #include <string>
 
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "services/runtime/dds/participant_impl.hpp"
+#include "services/runtime/dds/reader.hpp"
+#include "services/runtime/dds/writer.hpp"
 #include "services/topics/cdr_codec.hpp"
 
 namespace quoin::runtime {
@@ -42,5 +51,41 @@ class CdrType : public eprosima::fastdds::dds::TopicDataType {
 /// A new CdrType.
 [[nodiscard]] eprosima::fastdds::dds::TypeSupport type_support(const std::string& name,
                                                                const topics::CdrCodec* codec);
+
+struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
+  Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+       const topics::CdrCodec* codec, const TopicQos& qos);
+  ~Impl() override;
+
+  void on_subscription_matched(
+      eprosima::fastdds::dds::DataReader*,
+      const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
+
+  Participant& participant;
+  std::string topic_name;
+  MatchState match;
+  eprosima::fastdds::dds::DataReader* reader = nullptr;
+};
+
+struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
+  Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+       const topics::CdrCodec* codec, const TopicQos& qos);
+  ~Impl() override;
+
+  void on_publication_matched(
+      eprosima::fastdds::dds::DataWriter*,
+      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+
+  /// Participants of the matched readers.
+  [[nodiscard]] std::set<KnownEndpoints::Prefix> reading_participants() const;
+
+  Participant& participant;
+  std::string topic_name;
+  MatchState match;
+  mutable std::mutex mutex;
+  std::set<KnownEndpoints::Guid> readers;  // matched
+  bool found_silent = false;               // by the last check
+  eprosima::fastdds::dds::DataWriter* writer = nullptr;
+};
 
 }  // namespace quoin::runtime
