@@ -29,7 +29,7 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
     : settings_(std::move(settings)),
       thread_(std::move(thread)),
       exchange_(settings_.method, settings_.parameters, std::move(make)),
-      succession_(settings_.held),
+      succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
       next_index_(outputs_.size(), 0) {
   for (const OutputPart& part : outputs_) {
@@ -139,7 +139,7 @@ bool Node::hold() {
       if (!message) break;
       any = true;
       if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
-      port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+      port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
     }
   }
   if (const auto from = succession_.begin()) begin(*from);
@@ -168,7 +168,7 @@ bool Node::take_each(std::size_t index) {
     auto message = port.part.input->take();
     if (!message) break;
     any = true;
-    port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+    port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
   }
   return any;
 }
@@ -198,7 +198,7 @@ bool Node::complete(const Pending& pending) const {
   const bool all = std::all_of(ports_.begin(), ports_.end(), [&](const auto& port) {
     return port->part.port.join != Join::by_time || port->partners.after(stamp) != nullptr;
   });
-  return all || Clock::now() >= pending.deadline;
+  return all || thread_.now() >= pending.deadline;
 }
 
 bool Node::handle_next(std::size_t index) {

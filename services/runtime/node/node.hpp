@@ -42,11 +42,12 @@ class Node {
   };
   struct Settings {
     std::string service;  ///< its name
-    std::string method;
-    ParameterSettings parameters;
+    std::string method = {};
+    ParameterSettings parameters = {};
     bool held = false;  ///< it is to take over from another process
     /// How long a message waits for those around its stamp on a `by_time` port.
     std::chrono::milliseconds join_patience{200};
+    std::chrono::milliseconds longest_handover{5000};
   };
 
   /// Makes the method. Throws ParameterError.
