@@ -312,11 +312,10 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
     out.trace().clear();
   }
   for (const Work::Partner& partner : joined_) {
-    for (const Message* message : {partner.before, partner.after}) {
-      if (message == nullptr || (message == partner.after && partner.after == partner.before)) continue;
-      if (!message->header->origins().empty()) {
-        out.origins().push_back(message->header->origins().front());
-      }
+    const Message* const after = partner.after == partner.before ? nullptr : partner.after;
+    for (const Message* message : {partner.before, after}) {
+      if (message == nullptr || message->header->origins().empty()) continue;
+      out.origins().push_back(message->header->origins().front());
     }
   }
   msg::StageTrace& trace = out.trace().emplace_back();
