@@ -123,6 +123,7 @@ bool Node::take_partners() {
     while (auto message = port.part.input->take()) {
       any = true;
       if (account(i, *message->header)) port.partners.add(std::move(*message));
+      if (port.part.port.join == Join::latest) port.partners.keep_latest();
     }
   }
   return any;
