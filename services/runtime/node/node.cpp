@@ -143,7 +143,10 @@ bool Node::hold() {
       port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
     }
   }
-  if (const auto from = succession_.begin()) begin(*from);
+  if (const auto from = succession_.begin()) {
+    begin(*from);
+    return true;  // what it holds can be handled
+  }
   return any;
 }
 
