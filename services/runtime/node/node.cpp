@@ -158,7 +158,9 @@ void Node::begin(const Succession::Begin& from) {
   }
   for (const auto& port : ports_) {
     const auto position = from.positions.find(port->part.port.name);
-    if (position != from.positions.end()) port->begin_with = position->second;
+    if (position == from.positions.end()) continue;
+    port->begin_with = position->second;
+    port->next = position->second;  // should it be asked to leave before that has come
   }
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
