@@ -83,12 +83,14 @@ bool Node::step() {
   if (left_) return false;
   bool any = take_partners();
   if (succession_.held()) return hold() || any;
+  const bool asked = succession_.asked();
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     if (!ports_[i]->each()) continue;
+    ports_[i]->left = ports_[i]->left && asked;  // the successor may have been refused
     any = take_each(i) || any;
     any = handle_next(i) || any;
   }
-  if (succession_.asked()) look_whether_left();
+  if (asked) look_whether_left();
   return any && !left_;
 }
 
@@ -109,7 +111,7 @@ void Node::leave() {
 std::optional<Node::Clock::time_point> Node::due() const {
   std::optional<Clock::time_point> first;
   for (const auto& port : ports_) {
-    if (port->queue.empty() || succession_.held()) continue;
+    if (port->queue.empty() || port->left || succession_.held()) continue;
     if (!first || port->queue.front().deadline < *first) first = port->queue.front().deadline;
   }
   return first;
@@ -210,15 +212,14 @@ bool Node::complete(const Pending& pending) const {
 bool Node::handle_next(std::size_t index) {
   Port& port = *ports_[index];
   if (port.queue.empty() || port.left || !complete(port.queue.front())) return false;
+  const std::uint64_t number = number_of(port.queue.front().message);
+  if (succession_.leaves(port.part.port.name, number)) {
+    port.left = true;
+    return false;
+  }
   const Pending pending = std::move(port.queue.front());
   port.queue.pop_front();
   thread_.pulse.beat();
-  const std::uint64_t number = number_of(pending.message);
-  if (succession_.leaves(port.part.port.name, number)) {
-    port.left = true;
-    port.queue.clear();
-    return true;
-  }
   // The predecessor has handled these; with another input they may come late.
   if (port.begin_with && number < *port.begin_with) return true;
   port.begin_with.reset();
