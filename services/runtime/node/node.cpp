@@ -22,6 +22,12 @@ constexpr std::size_t most_waiting = 256;
 
 std::uint64_t number_of(const Message& message) { return topics::sequence_number(*message.header); }
 
+/// Whether this is of another process than that of `known`, which did not go on with its numbers.
+bool numbers_anew(const msg::Header& header, std::uint64_t known) {
+  return known != 0 && topics::origin(header).incarnation() > known && !header.trace().empty() &&
+         header.trace().front().index() == topics::sequence_number(header);
+}
+
 }  // namespace
 
 Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> outputs,
@@ -142,6 +148,7 @@ bool Node::hold() {
       if (!message) break;
       any = true;
       if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
+      port.incarnation = topics::origin(*message->header).incarnation();
       port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
     }
   }
@@ -221,9 +228,13 @@ bool Node::handle_next(std::size_t index) {
   port.queue.pop_front();
   thread_.pulse.beat();
   // The predecessor has handled these; with another input they may come late.
-  if (port.begin_with && number < *port.begin_with) return true;
+  const msg::Header& header = *pending.message.header;
+  if (port.begin_with && number < *port.begin_with && !numbers_anew(header, port.incarnation)) {
+    port.incarnation = topics::origin(header).incarnation();
+    return true;
+  }
   port.begin_with.reset();
-  if (!account(index, *pending.message.header)) return true;
+  if (!account(index, header)) return true;
   port.next = number + 1;
   if (exchange_.apply(number)) thread_.record.set_method(exchange_.name());
   handle(index, pending);

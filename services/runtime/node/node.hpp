@@ -91,6 +91,7 @@ class Node {
     std::deque<Pending> queue;                // of an `each` port
     Partners partners;                        // of the others
     std::optional<std::uint64_t> begin_with;  // until that message has come
+    std::uint64_t incarnation = 0;            // of the source before that; 0 when nothing came
     std::uint64_t next = 0;                   // behind the last one that was handled
     bool missed = false;                      // the last result was made without it
     bool left = false;                        // what comes is for the successor
