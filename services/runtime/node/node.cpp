@@ -265,15 +265,20 @@ void Node::note_missing(std::size_t index, bool missing) {
   Port& port = *ports_[index];
   if (missing) thread_.record.count_unjoined(index);
   if (std::exchange(port.missed, missing) == missing) return;
-  std::string text;
-  if (missing) {
-    text = "nothing comes by port " + port.part.port.name + " from '" + port.part.writer +
+  const auto text_of = [](const Port& missed) {
+    return "nothing comes by port " + missed.part.port.name + " from '" + missed.part.writer +
            "' in time; going on without it";
-    spdlog::warn("{}", text);
+  };
+  if (missing) {
+    spdlog::warn("{}", text_of(port));
   } else {
     spdlog::info("port {} is joined again", port.part.port.name);
   }
-  thread_.record.set_detail(text);
+  std::string detail;
+  for (const auto& other : ports_) {
+    if (other->missed) detail += (detail.empty() ? "" : "; ") + text_of(*other);
+  }
+  thread_.record.set_detail(detail);
 }
 
 void Node::handle(std::size_t index, const Pending& pending) {
