@@ -21,26 +21,26 @@ constexpr std::chrono::seconds patience_with_readers{2};
 /// Says once for whom a lossless writer waits, and takes it back.
 class WaitNotice {
  public:
-  explicit WaitNotice(ServiceRecord& record) : record_(record) {}
+  explicit WaitNotice(DataThread& thread) : thread_(thread), begun_(thread.now()) {}
   ~WaitNotice() {
-    if (!told_.empty()) record_.set_detail("");
+    if (!told_.empty()) thread_.record.set_detail("");
   }
   WaitNotice(const WaitNotice&) = delete;
   WaitNotice& operator=(const WaitNotice&) = delete;
 
   void waiting(const std::vector<std::string>& silent) {
-    if (Clock::now() - begun_ < patience_with_readers) return;
+    if (thread_.now() - begun_ < patience_with_readers) return;
     std::string text = "waiting for readers that do not take its results";
     for (std::size_t i = 0; i < silent.size(); ++i) text += (i == 0 ? ": " : ", ") + silent[i];
     if (text == told_) return;
     spdlog::warn("{}", text);
-    record_.set_detail(text);
+    thread_.record.set_detail(text);
     told_ = std::move(text);
   }
 
  private:
-  ServiceRecord& record_;
-  const Clock::time_point begun_ = Clock::now();
+  DataThread& thread_;
+  const Clock::time_point begun_;
   std::string told_;
 };
 
@@ -51,11 +51,11 @@ bool deliver(Output& output, msg::StageTrace& trace, bool lossless, DataThread& 
   trace.published(now_ns());
   if (output.write()) return true;
   if (!lossless) return false;
-  WaitNotice notice(thread.record);
+  WaitNotice notice(thread);
   auto deadline = Clock::time_point::max();
   while (true) {
     if (thread.stopping()) {
-      const auto now = Clock::now();
+      const auto now = thread.now();
       if (deadline == Clock::time_point::max()) deadline = now + longest_wait_for_room;
       if (now >= deadline) return false;
     }

@@ -23,6 +23,8 @@ struct DataThread {
   ServiceRecord& record;
   Pulse& pulse;                      ///< alive while it waits for readers
   std::function<bool()> stopping;    ///< whether the service was asked to stop
+  /// The clock by which is waited.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
 /// Stamps `trace` (which is part of the output's message) and writes the message. With the lossless

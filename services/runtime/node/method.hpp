@@ -24,7 +24,8 @@ struct Around {
 };
 
 /// What a method is called with: the message that came by an `each` port, what the other ports have
-/// for it, and the messages to fill. Types that do not belong to the kind are std::logic_error.
+/// for it, and the messages to fill. Types that do not belong to the kind are std::logic_error. An
+/// optional port that is not wired is like one by which nothing comes.
 class Work {
  public:
   struct Partner {
@@ -87,7 +88,8 @@ class Work {
     for (const Partner& partner : partners_) {
       if (partner.port == port) return partner;
     }
-    throw std::logic_error("no port '" + std::string(port) + "'");
+    static const Partner not_wired;
+    return not_wired;
   }
   [[nodiscard]] Result& find(const std::type_info& type) {
     for (Result& result : results_) {

@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 namespace quoin::runtime {
 
 namespace {
-
-constexpr std::chrono::seconds longest_wait_for_a_scan{2};
 
 ParameterSettings settings_of(const msg::ControlRequest& request) {
   ParameterSettings settings;
@@ -21,16 +21,28 @@ ParameterSettings settings_of(const msg::ControlRequest& request) {
   return settings;
 }
 
+ParameterSettings merged(ParameterSettings settings, const ParameterSettings& changes) {
+  for (const ParameterSetting& change : changes) {
+    const auto same = std::ranges::find(settings, change.name, &ParameterSetting::name);
+    if (same == settings.end()) {
+      settings.push_back(change);
+    } else {
+      same->text = change.text;
+    }
+  }
+  return settings;
+}
+
 }  // namespace
 
 MethodExchange::MethodExchange(std::string method, ParameterSettings parameters,
-                               MethodFactory make)
+                               MethodFactory make, std::chrono::milliseconds longest_wait)
     : make_(std::move(make)),
+      longest_wait_(longest_wait),
       name_(std::move(method)),
       current_(make_(name_, parameters)),
-      wanted_name_(name_),
-      wanted_form_(current_.state_form),
-      parameters_(std::move(parameters)) {}
+      in_force_{name_, current_.state_form, std::move(parameters)},
+      wanted_(in_force_) {}
 
 bool MethodExchange::apply(std::uint64_t sequence_number) {
   if (!pending_.load(std::memory_order_acquire)) return false;
@@ -41,10 +53,13 @@ bool MethodExchange::apply(std::uint64_t sequence_number) {
       next_->restore(current_.save());
     }
     current_ = std::move(*next_);
-    name_ = next_name_;
+    in_force_ = wanted_;
+    name_ = in_force_.name;
     refusal_.clear();
   } catch (const std::exception& error) {
     refusal_ = std::string("the state of the method cannot be carried over: ") + error.what();
+    wanted_ = in_force_;
+    spdlog::error("{}", refusal_);  // who asked may not wait any more
   }
   next_.reset();
   first_sequence_number_ = sequence_number;
@@ -68,61 +83,49 @@ void MethodExchange::handle(const msg::ControlRequest& request, msg::ControlRepl
     case msg::ControlAction::CONTROL_SWAP_METHOD:
       exchange(request.method(), settings_of(request), request.drop_state(), reply);
       break;
-    case msg::ControlAction::CONTROL_SET_PARAMETERS:
-      exchange(wanted_name_, merged(settings_of(request)), request.drop_state(), reply);
+    case msg::ControlAction::CONTROL_SET_PARAMETERS: {
+      const Version before = wanted();
+      exchange(before.name, merged(before.parameters, settings_of(request)), request.drop_state(),
+               reply);
       break;
+    }
     default:  // the wire may carry any number
       throw std::invalid_argument("unknown action");
   }
+  const Version version = wanted();
   reply.accepted(true);
-  reply.method(wanted_name_);
-  for (const ParameterSetting& setting : parameters_) {
+  reply.method(version.name);
+  for (const ParameterSetting& setting : version.parameters) {
     msg::ParameterSetting& out = reply.parameters().emplace_back();
     out.name(setting.name);
     out.value(setting.text);
   }
 }
 
-ParameterSettings MethodExchange::merged(const ParameterSettings& changes) const {
-  ParameterSettings result = parameters_;
-  for (const ParameterSetting& change : changes) {
-    const auto same =
-        std::find_if(result.begin(), result.end(), [&](const ParameterSetting& setting) {
-          return setting.name == change.name;
-        });
-    if (same == result.end()) {
-      result.push_back(change);
-    } else {
-      same->text = change.text;
-    }
-  }
-  return result;
+MethodExchange::Version MethodExchange::wanted() const {
+  const std::lock_guard lock(mutex_);
+  return wanted_;
 }
 
 void MethodExchange::exchange(const std::string& method, const ParameterSettings& parameters,
                               bool drop_state, msg::ControlReply& reply) {
   Method next = make_(method, parameters);  // throws, and then nothing has changed
   const std::string form = next.state_form;
-  if (!wanted_form_.empty() && form != wanted_form_ && !drop_state) {
+  std::unique_lock lock(mutex_);
+  if (!wanted_.state_form.empty() && form != wanted_.state_form && !drop_state) {
     throw std::invalid_argument("method " + method + " cannot go on with the state (" +
-                                wanted_form_ + ") of " + wanted_name_ +
+                                wanted_.state_form + ") of " + wanted_.name +
                                 ", which would be dropped; ask with --drop-state to do so");
   }
-  std::unique_lock lock(mutex_);
   next_ = std::move(next);
-  next_name_ = method;
+  wanted_ = {method, form, parameters};
   pending_.store(true, std::memory_order_release);
-  const bool applied =
-      applied_.wait_for(lock, longest_wait_for_a_scan, [this] { return !pending_.load(); });
-  if (applied && !refusal_.empty()) throw std::runtime_error(refusal_);
-  wanted_name_ = method;
-  wanted_form_ = form;
-  parameters_ = parameters;
-  if (applied) {
-    reply.first_sequence_number(first_sequence_number_);
-  } else {
+  if (!applied_.wait_for(lock, longest_wait_, [this] { return !pending_.load(); })) {
     reply.detail("no scan has come since; the next one is handled as requested");
+    return;
   }
+  if (!refusal_.empty()) throw std::runtime_error(refusal_);
+  reply.first_sequence_number(first_sequence_number_);
 }
 
 }  // namespace quoin::runtime

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <idl/Control.h>
@@ -20,8 +21,10 @@ namespace quoin::runtime {
 /// anything is done.
 class MethodExchange {
  public:
-  /// Throws ParameterError.
-  MethodExchange(std::string method, ParameterSettings parameters, MethodFactory make);
+  /// `longest_wait`: for a message to apply a request at, before the answer goes out. Throws
+  /// ParameterError.
+  MethodExchange(std::string method, ParameterSettings parameters, MethodFactory make,
+                 std::chrono::milliseconds longest_wait = std::chrono::seconds(2));
 
   /// Node: called before it handles message `sequence_number`; true when the method has changed.
   bool apply(std::uint64_t sequence_number);
@@ -38,24 +41,30 @@ class MethodExchange {
   void handle(const msg::ControlRequest& request, msg::ControlReply& reply);
 
  private:
-  [[nodiscard]] ParameterSettings merged(const ParameterSettings& changes) const;
   void exchange(const std::string& method, const ParameterSettings& parameters, bool drop_state,
                 msg::ControlReply& reply);
 
+  /// What a method is known by.
+  struct Version {
+    std::string name;
+    std::string state_form;
+    ParameterSettings parameters;
+  };
+
+  [[nodiscard]] Version wanted() const;
+
   const MethodFactory make_;
+  const std::chrono::milliseconds longest_wait_;
   // Of the node's thread.
   std::string name_;
   Method current_;
-  // Of the control thread.
-  std::string wanted_name_;
-  std::string wanted_form_;  // of the state
-  ParameterSettings parameters_;
 
   std::atomic<bool> pending_{false};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable applied_;
+  Version in_force_;
+  Version wanted_;  // the same unless a request is pending
   std::optional<Method> next_;
-  std::string next_name_;
   std::string refusal_;
   std::uint64_t first_sequence_number_ = 0;
 };

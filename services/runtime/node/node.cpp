@@ -22,6 +22,12 @@ constexpr std::size_t most_waiting = 256;
 
 std::uint64_t number_of(const Message& message) { return topics::sequence_number(*message.header); }
 
+/// Whether this is of another process than that of `known`, which did not go on with its numbers.
+bool numbers_anew(const msg::Header& header, std::uint64_t known) {
+  return known != 0 && topics::origin(header).incarnation() > known && !header.trace().empty() &&
+         header.trace().front().index() == topics::sequence_number(header);
+}
+
 }  // namespace
 
 Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> outputs,
@@ -29,7 +35,7 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
     : settings_(std::move(settings)),
       thread_(std::move(thread)),
       exchange_(settings_.method, settings_.parameters, std::move(make)),
-      succession_(settings_.held),
+      succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
       next_index_(outputs_.size(), 0) {
   for (const OutputPart& part : outputs_) {
@@ -83,12 +89,14 @@ bool Node::step() {
   if (left_) return false;
   bool any = take_partners();
   if (succession_.held()) return hold() || any;
+  const bool asked = succession_.asked();
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     if (!ports_[i]->each()) continue;
+    ports_[i]->left = ports_[i]->left && asked;  // the successor may have been refused
     any = take_each(i) || any;
     any = handle_next(i) || any;
   }
-  if (succession_.asked()) look_whether_left();
+  if (asked) look_whether_left();
   return any && !left_;
 }
 
@@ -109,7 +117,7 @@ void Node::leave() {
 std::optional<Node::Clock::time_point> Node::due() const {
   std::optional<Clock::time_point> first;
   for (const auto& port : ports_) {
-    if (port->queue.empty() || succession_.held()) continue;
+    if (port->queue.empty() || port->left || succession_.held()) continue;
     if (!first || port->queue.front().deadline < *first) first = port->queue.front().deadline;
   }
   return first;
@@ -123,6 +131,7 @@ bool Node::take_partners() {
     while (auto message = port.part.input->take()) {
       any = true;
       if (account(i, *message->header)) port.partners.add(std::move(*message));
+      if (port.part.port.join == Join::latest) port.partners.keep_latest();
     }
   }
   return any;
@@ -139,10 +148,14 @@ bool Node::hold() {
       if (!message) break;
       any = true;
       if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
-      port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+      port.incarnation = topics::origin(*message->header).incarnation();
+      port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
     }
   }
-  if (const auto from = succession_.begin()) begin(*from);
+  if (const auto from = succession_.begin()) {
+    begin(*from);
+    return true;  // what it holds can be handled
+  }
   return any;
 }
 
@@ -154,7 +167,9 @@ void Node::begin(const Succession::Begin& from) {
   }
   for (const auto& port : ports_) {
     const auto position = from.positions.find(port->part.port.name);
-    if (position != from.positions.end()) port->begin_with = position->second;
+    if (position == from.positions.end()) continue;
+    port->begin_with = position->second;
+    port->next = position->second;  // should it be asked to leave before that has come
   }
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
@@ -168,7 +183,7 @@ bool Node::take_each(std::size_t index) {
     auto message = port.part.input->take();
     if (!message) break;
     any = true;
-    port.queue.push_back({std::move(*message), now_ns(), Clock::now() + settings_.join_patience});
+    port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
   }
   return any;
 }
@@ -198,25 +213,28 @@ bool Node::complete(const Pending& pending) const {
   const bool all = std::all_of(ports_.begin(), ports_.end(), [&](const auto& port) {
     return port->part.port.join != Join::by_time || port->partners.after(stamp) != nullptr;
   });
-  return all || Clock::now() >= pending.deadline;
+  return all || thread_.now() >= pending.deadline;
 }
 
 bool Node::handle_next(std::size_t index) {
   Port& port = *ports_[index];
   if (port.queue.empty() || port.left || !complete(port.queue.front())) return false;
+  const std::uint64_t number = number_of(port.queue.front().message);
+  if (succession_.leaves(port.part.port.name, number)) {
+    port.left = true;
+    return false;
+  }
   const Pending pending = std::move(port.queue.front());
   port.queue.pop_front();
   thread_.pulse.beat();
-  const std::uint64_t number = number_of(pending.message);
-  if (succession_.leaves(port.part.port.name, number)) {
-    port.left = true;
-    port.queue.clear();
+  // The predecessor has handled these; with another input they may come late.
+  const msg::Header& header = *pending.message.header;
+  if (port.begin_with && number < *port.begin_with && !numbers_anew(header, port.incarnation)) {
+    port.incarnation = topics::origin(header).incarnation();
     return true;
   }
-  // The predecessor has handled these; with another input they may come late.
-  if (port.begin_with && number < *port.begin_with) return true;
   port.begin_with.reset();
-  if (!account(index, *pending.message.header)) return true;
+  if (!account(index, header)) return true;
   port.next = number + 1;
   if (exchange_.apply(number)) thread_.record.set_method(exchange_.name());
   handle(index, pending);
@@ -247,15 +265,20 @@ void Node::note_missing(std::size_t index, bool missing) {
   Port& port = *ports_[index];
   if (missing) thread_.record.count_unjoined(index);
   if (std::exchange(port.missed, missing) == missing) return;
-  std::string text;
-  if (missing) {
-    text = "nothing comes by port " + port.part.port.name + " from '" + port.part.writer +
+  const auto text_of = [](const Port& missed) {
+    return "nothing comes by port " + missed.part.port.name + " from '" + missed.part.writer +
            "' in time; going on without it";
-    spdlog::warn("{}", text);
+  };
+  if (missing) {
+    spdlog::warn("{}", text_of(port));
   } else {
     spdlog::info("port {} is joined again", port.part.port.name);
   }
-  thread_.record.set_detail(text);
+  std::string detail;
+  for (const auto& other : ports_) {
+    if (other->missed) detail += (detail.empty() ? "" : "; ") + text_of(*other);
+  }
+  thread_.record.set_detail(detail);
 }
 
 void Node::handle(std::size_t index, const Pending& pending) {
@@ -312,11 +335,10 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
     out.trace().clear();
   }
   for (const Work::Partner& partner : joined_) {
-    for (const Message* message : {partner.before, partner.after}) {
-      if (message == nullptr || (message == partner.after && partner.after == partner.before)) continue;
-      if (!message->header->origins().empty()) {
-        out.origins().push_back(message->header->origins().front());
-      }
+    const Message* const after = partner.after == partner.before ? nullptr : partner.after;
+    for (const Message* message : {partner.before, after}) {
+      if (message == nullptr || message->header->origins().empty()) continue;
+      out.origins().push_back(message->header->origins().front());
     }
   }
   msg::StageTrace& trace = out.trace().emplace_back();

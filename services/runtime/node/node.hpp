@@ -42,11 +42,12 @@ class Node {
   };
   struct Settings {
     std::string service;  ///< its name
-    std::string method;
-    ParameterSettings parameters;
+    std::string method = {};
+    ParameterSettings parameters = {};
     bool held = false;  ///< it is to take over from another process
     /// How long a message waits for those around its stamp on a `by_time` port.
     std::chrono::milliseconds join_patience{200};
+    std::chrono::milliseconds longest_handover{5000};
   };
 
   /// Makes the method. Throws ParameterError.
@@ -90,6 +91,7 @@ class Node {
     std::deque<Pending> queue;                // of an `each` port
     Partners partners;                        // of the others
     std::optional<std::uint64_t> begin_with;  // until that message has come
+    std::uint64_t incarnation = 0;            // of the source before that; 0 when nothing came
     std::uint64_t next = 0;                   // behind the last one that was handled
     bool missed = false;                      // the last result was made without it
     bool left = false;                        // what comes is for the successor

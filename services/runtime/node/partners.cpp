@@ -43,4 +43,8 @@ void Partners::forget_before(std::int64_t stamp) {
   while (messages_.size() > 1 && stamp_of(messages_[1]) <= stamp) messages_.pop_front();
 }
 
+void Partners::keep_latest() {
+  while (messages_.size() > 1) messages_.pop_front();
+}
+
 }  // namespace quoin::runtime

@@ -25,6 +25,8 @@ class Partners {
   [[nodiscard]] const Message* after(std::int64_t stamp) const;
   /// What is asked for from now on is not older than that.
   void forget_before(std::int64_t stamp);
+  /// Only the newest will be asked for.
+  void keep_latest();
   [[nodiscard]] std::size_t size() const { return messages_.size(); }
 
  private:

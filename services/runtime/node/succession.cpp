@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/node/succession.hpp"
 
-#include <chrono>
 #include <stdexcept>
 #include <utility>
 
 namespace quoin::runtime {
 
 namespace {
-
-// A source may have to let a motor stop before it releases its device.
-constexpr std::chrono::seconds longest_handover{5};
 
 Positions positions_of(const std::vector<msg::PortPosition>& list) {
   Positions positions;
@@ -68,12 +64,12 @@ void Succession::hand_over(const msg::ControlRequest& request, msg::ControlReply
   leave_from_ = positions_of(request.positions());
   asked_.store(true, std::memory_order_release);
   if (callback_) callback_();
-  if (!changed_.wait_for(lock, longest_handover, [this] { return next_.has_value(); })) {
+  if (!changed_.wait_for(lock, longest_handover_, [this] { return next_.has_value(); })) {
     asked_ = false;
     std::string until = "the end of what it is doing";
     if (!leave_from_.empty()) until = "scan " + std::to_string(leave_from_.begin()->second);
     throw std::runtime_error("has not come to " + until + " within " +
-                             std::to_string(longest_handover.count()) + " s");
+                             std::to_string(longest_handover_.count()) + " ms");
   }
   for (const auto& [port, sequence_number] : *next_) add(port, sequence_number, reply);
   reply.state(state_);

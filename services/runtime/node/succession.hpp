@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -28,7 +29,11 @@ using Positions = std::map<std::string, std::uint64_t>;
 /// successor publishes.
 class Succession {
  public:
-  explicit Succession(bool held) : held_(held) {}
+  /// `longest_handover`: for the predecessor to come to what it is to leave. A source may have to
+  /// let a motor stop before it releases its device.
+  explicit Succession(bool held,
+                      std::chrono::milliseconds longest_handover = std::chrono::seconds(5))
+      : longest_handover_(longest_handover), held_(held) {}
 
   /// Whether this process waits to take over.
   [[nodiscard]] bool held() const { return held_.load(std::memory_order_acquire); }
@@ -66,6 +71,7 @@ class Succession {
     std::uint32_t count = 0;
     std::uint64_t first = 0;
   };
+  const std::chrono::milliseconds longest_handover_;
   std::atomic<bool> held_;
   std::atomic<bool> asked_{false};
   mutable std::mutex mutex_;
