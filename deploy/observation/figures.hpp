@@ -75,6 +75,9 @@ struct ServiceFigures {
   std::uint64_t restarts = 0;
   std::string host = {};  ///< where it runs, as far as that is known
   double age = -1.0;      ///< [s] of its last heartbeat; negative: none was heard
+  /// Messages published on each output that numbers them (a source's scans, and what has a rate of
+  /// its own), by type.
+  std::map<std::string, std::uint64_t> numbered = {};
 };
 
 /// Lost scans by where they were lost.

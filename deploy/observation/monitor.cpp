@@ -281,9 +281,9 @@ std::vector<SourceInstance> Monitor::source_instances() const {
 DeploymentFigures Monitor::figures() const {
   const std::lock_guard lock(mutex_);
   const std::vector<SourceInstance> sources = source_instances();
-  std::map<std::string, std::uint64_t> published;  // by sources
+  std::map<std::string, std::map<std::string, std::uint64_t>> numbered;  // by label and type
   for (const SourceInstance& source : sources) {
-    published.try_emplace(source.label, source.ledger.published());  // of the scans, which come first
+    numbered[source.label][source.type] = source.ledger.published();
   }
   DeploymentFigures figures;
   figures.deployment = file_;
@@ -291,8 +291,9 @@ DeploymentFigures Monitor::figures() const {
     const ServiceWatch& watch = services_.at(name);
     if (!watch.settled) continue;
     ServiceFigures entry{name, watch.kind, watch.method, watch.incarnations.total(), 0};
+    entry.numbered = numbered[name];
     if (watch.source) {
-      entry.report.published = published[name];
+      entry.report.published = entry.numbered[watch.outputs.front().type];
       figures.scans_published += entry.report.published;
     } else {
       // What a killed process received after its last heartbeat shows in its results alone.

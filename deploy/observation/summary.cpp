@@ -20,12 +20,9 @@ Json counts(const std::map<std::string, std::uint64_t>& values) {
 }
 
 Json end_summary(const EndFigures& end) {
-  return {{"scans_expected", end.scans_expected},
-          {"scans_delivered", end.scans_delivered},
-          {"scans_lost", end.lost.sum()},
-          {"lost_by_stage", counts(end.lost.by_service)},
-          {"lost_on_link", end.lost.on_link},
-          {"lost_at_start", end.lost.at_start},
+  return {{"scans_expected", end.scans_expected}, {"scans_delivered", end.scans_delivered},
+          {"scans_lost", end.lost.sum()},         {"lost_by_stage", counts(end.lost.by_service)},
+          {"lost_on_link", end.lost.on_link},     {"lost_at_start", end.lost.at_start},
           {"lost_at_end", end.lost.at_end}};
 }
 
@@ -48,21 +45,23 @@ double rounded(double value) {
 
 Json service_summary(const ServiceFigures& service) {
   const ServiceReport& report = service.report;
-  return {{"kind", service.kind},
-          {"method", service.method},
-          {"state", report.state},
-          {"received", report.received},
-          {"published", report.published},
-          {"lost", report.lost},
-          {"losses", counts(report.losses)},
-          {"upstream_lost", report.upstream_lost},
-          {"failures", report.failures},
-          {"latency_p50_us", rounded(report.latency_p50 * 1e6)},
-          {"latency_p99_us", rounded(report.latency_p99 * 1e6)},
-          {"processing_p50_us", rounded(report.processing_p50 * 1e6)},
-          {"processing_p99_us", rounded(report.processing_p99 * 1e6)},
-          {"resident_memory_bytes", report.resident_memory},
-          {"restarts", service.restarts}};
+  Json json = {{"kind", service.kind},
+               {"method", service.method},
+               {"state", report.state},
+               {"received", report.received},
+               {"published", report.published},
+               {"lost", report.lost},
+               {"losses", counts(report.losses)},
+               {"upstream_lost", report.upstream_lost},
+               {"failures", report.failures},
+               {"latency_p50_us", rounded(report.latency_p50 * 1e6)},
+               {"latency_p99_us", rounded(report.latency_p99 * 1e6)},
+               {"processing_p50_us", rounded(report.processing_p50 * 1e6)},
+               {"processing_p99_us", rounded(report.processing_p99 * 1e6)},
+               {"resident_memory_bytes", report.resident_memory},
+               {"restarts", service.restarts}};
+  if (!service.numbered.empty()) json["numbered"] = counts(service.numbered);
+  return json;
 }
 
 Json summary(const DeploymentFigures& figures) {

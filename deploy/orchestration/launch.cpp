@@ -41,7 +41,7 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
   if (!serves_discovery(deployment)) return std::nullopt;
   ProcessPlan plan;
   plan.name = discovery_process;
-  plan.program = program_folder() / "quoin";
+  plan.program = std::filesystem::read_symlink("/proc/self/exe");  // it knows the same kinds
   plan.arguments = {"discovery", std::filesystem::absolute(file).string()};
   plan.level = std::numeric_limits<int>::max();  // others are found until the end
   plan.least_pause = discovery_pause(deployment.network);

@@ -26,18 +26,19 @@ class StrangerNumbers {
   /// `service`: what the stranger is called in the deployment.
   explicit StrangerNumbers(std::string service) : service_(std::move(service)) {}
 
-  void number(const ReaderBase::Sample& sample, msg::Header& header) {
-    // Another writer counts from 1 again, as a process does that was started again.
-    if (sample.writer != writer_) {
-      writer_ = sample.writer;
-      ++incarnation_;
-    }
+  /// Leaves a header as it is that has what accounting needs.
+  void number(const ReaderBase::Sample& sample, msg::Header& header) const {
+    if (!header.trace().empty() && !header.origins().empty()) return;
+    // Another writer counts from 1 again, as a process does that was started again. All readers of a
+    // writer must give it the same incarnation, whenever they begin; as a time, which it is of our
+    // own services, it is so long ago that nobody concludes from it when the writer began.
+    const std::uint64_t incarnation = 1 + (sample.writer & 0xFFFF'FFFFU);
     const std::uint64_t index = sample.sequence_number - std::min<std::uint64_t>(1, sample.sequence_number);
-    topics::set_origin(header, service_, incarnation_, index);
+    topics::set_origin(header, service_, incarnation, index);
     header.trace().resize(1);
     msg::StageTrace& trace = header.trace().front();
     trace.service(service_);
-    trace.incarnation(incarnation_);
+    trace.incarnation(incarnation);
     trace.index(index);
     trace.received(header.stamp());
     trace.published(sample.sent);
@@ -45,8 +46,6 @@ class StrangerNumbers {
 
  private:
   std::string service_;
-  std::uint64_t writer_ = 0;
-  std::uint64_t incarnation_ = 0;
 };
 
 /// Messages that nobody keeps any more give their memory to later ones.
@@ -78,9 +77,7 @@ class ReaderInput final : public Input {
   [[nodiscard]] std::optional<Message> take() override {
     const std::shared_ptr<T>& free = places_.free();
     if (!reader_.take(*free)) return std::nullopt;
-    if (numbers_ && free->header().trace().empty()) {
-      numbers_->number(reader_.last_sample(), free->header());
-    }
+    if (numbers_) numbers_->number(reader_.last_sample(), free->header());
     return Message{free, &typeid(T), &free->header()};
   }
   [[nodiscard]] std::size_t matched() const override { return reader_.matched(); }
@@ -106,16 +103,21 @@ struct ObservedMessage {
 /// Messages of any type that DDS brings to an observer. What has no header of ours is left out.
 class ObservedInput final : public Input {
  public:
-  ObservedInput(Participant& participant, const OutputConfig& output, const TopicQos& qos)
+  /// `stranger`: as above.
+  ObservedInput(Participant& participant, const OutputConfig& output, const TopicQos& qos,
+                const std::string& stranger = "")
       : type_(output.type),
         topic_(output.topic),
         reader_(participant, output.topic,
-                std::string(topics::find_topic_type(output.type)->dds_type), qos) {}
+                std::string(topics::find_topic_type(output.type)->dds_type), qos) {
+    if (!stranger.empty()) numbers_.emplace(stranger);
+  }
 
   [[nodiscard]] std::optional<Message> take() override {
     const std::shared_ptr<ObservedMessage>& free = places_.free();
     while (reader_.take(free->raw)) {
       if (!topics::read_header(free->raw, free->header)) continue;
+      if (numbers_) numbers_->number(reader_.last_sample(), free->header);
       free->type = type_;
       free->topic = topic_;
       return Message{free, &typeid(ObservedMessage), &free->header};
@@ -132,6 +134,7 @@ class ObservedInput final : public Input {
   std::string type_;
   std::string topic_;
   RawReader reader_;
+  std::optional<StrangerNumbers> numbers_;
   MessagePlaces<ObservedMessage> places_;
 };
 

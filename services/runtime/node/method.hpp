@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/parameters/parameter.hpp"
@@ -74,6 +75,12 @@ class Work {
   void publish() {
     find(typeid(T)).publish = true;
   }
+  /// An entry of the heartbeat; replaces the value of that name.
+  void set_diagnostic(std::string name, std::string value) {
+    diagnostics_.emplace_back(std::move(name), std::move(value));
+  }
+  using Diagnostics = std::vector<std::pair<std::string, std::string>>;  ///< name, value
+  [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
   /// Parts of the message (segments, say) that gave no result.
   void fail(std::size_t parts) { failures_ += parts; }
   [[nodiscard]] std::size_t failures() const { return failures_; }
@@ -102,6 +109,7 @@ class Work {
   std::string_view port_;
   std::vector<Partner>& partners_;
   std::vector<Result>& results_;
+  Diagnostics diagnostics_;
   std::size_t failures_ = 0;
 };
 

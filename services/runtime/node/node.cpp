@@ -37,7 +37,8 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
       exchange_(settings_.method, settings_.parameters, std::move(make)),
       succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
-      next_index_(outputs_.size(), 0) {
+      next_index_(outputs_.size(), 0),
+      first_number_(outputs_.size(), 0) {
   for (const OutputPart& part : outputs_) {
     thread_.record.add_output(part.topic);
     results_.push_back({part.output.get(), false});
@@ -111,6 +112,10 @@ void Node::leave() {
   for (const auto& port : ports_) {
     if (port->each()) next[port->part.port.name] = port->next;
   }
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].port.rate != Rate::own_rate) continue;
+    next[output_key(outputs_[i].port.type)] = first_number_[i] + next_index_[i];
+  }
   succession_.left(next, exchange_.save());
 }
 
@@ -170,6 +175,10 @@ void Node::begin(const Succession::Begin& from) {
     if (position == from.positions.end()) continue;
     port->begin_with = position->second;
     port->next = position->second;  // should it be asked to leave before that has come
+  }
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const auto position = from.positions.find(output_key(outputs_[i].port.type));
+    if (position != from.positions.end()) first_number_[i] = position->second;
   }
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
@@ -294,6 +303,7 @@ void Node::handle(std::size_t index, const Pending& pending) {
     spdlog::error("scan {}: {}", number_of(pending.message), error.what());
     return;
   }
+  for (const auto& [name, value] : work.diagnostics()) thread_.record.set_diagnostic(name, value);
   publish(index, pending, work.failures());
 }
 
@@ -328,7 +338,8 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
   if (outputs_[output].port.rate == Rate::per_input) {
     out = in;
   } else {
-    topics::set_origin(out, settings_.service, thread_.record.incarnation(), next_index_[output]);
+    topics::set_origin(out, settings_.service, thread_.record.incarnation(),
+                       first_number_[output] + next_index_[output]);
     out.origins().insert(out.origins().end(), in.origins().begin(), in.origins().end());
     out.stamp(in.stamp());
     out.frame(in.frame());

@@ -12,13 +12,21 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "services/runtime/node/method.hpp"
 
 namespace quoin::runtime {
 
-/// By port, a sequence number. The scans that a source makes have the port "".
+/// By port, a sequence number. The scans that a source makes have the port "", outputs at their own
+/// rate their output_key.
 using Positions = std::map<std::string, std::uint64_t>;
+
+/// Comes behind all ports. A successor goes on with the numbers of such an output: readers that are
+/// replaced with it know by them what they have.
+[[nodiscard]] inline std::string output_key(std::string_view type) {
+  return "~" + std::string(type);
+}
 
 /// How the work of a service goes from one process to the next without a message lost or doubled.
 ///

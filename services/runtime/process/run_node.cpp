@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include <spdlog/spdlog.h>
 
@@ -85,7 +87,10 @@ class NodeProcess {
   [[nodiscard]] Node::InputPart observed(const Connection& connection) {
     const OutputConfig& output = connection.output;
     auto input = std::make_unique<ObservedInput>(service_.participant, output,
-                                                 observer_qos(*connection.writer, output));
+                                                 observer_qos(*connection.writer, output),
+                                                 connection.writer->external()
+                                                     ? connection.writer->name
+                                                     : "");
     wait_set_.add(input->reader());
     return {{.name = output.topic, .type = output.type}, connection.writer->name, output.topic,
             std::move(input)};
@@ -159,6 +164,15 @@ class NodeProcess {
   WaitSet wait_set_;
 };
 
+/// What `quoin apply` says of a method's state is what the method says itself.
+void check_state_form(const KindInfo& kind, const std::string& method, const std::string& form) {
+  for (const MethodInfo& info : kind.methods) {
+    if (info.name != method || info.state == form) continue;
+    throw std::logic_error("method " + method + " of kind " + kind.name + " keeps the state '" +
+                           form + "', but is described to keep '" + info.state + "'");
+  }
+}
+
 }  // namespace
 
 int run_node(int argc, char** argv, const KindInfo& kind, const PortTypes& types,
@@ -166,7 +180,8 @@ int run_node(int argc, char** argv, const KindInfo& kind, const PortTypes& types
   return run_service(
       argc, argv, kind,
       [&](const Deployment&, const ServiceConfig& config) {
-        (void)make(config.method, config.parameters);  // throws before DDS is touched
+        const Method method = make(config.method, config.parameters);  // before DDS is touched
+        check_state_form(kind, config.method, method.state_form);
       },
       [&](Service& service) { return NodeProcess(service, kind, types, make).run(); });
 }

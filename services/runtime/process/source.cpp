@@ -21,19 +21,29 @@ using Outputs = std::vector<Node::OutputPart>;
 
 class PublishingSource final : public ServiceActivity<Source> {
  public:
-  PublishingSource(Service& service, Outputs& outputs, std::uint64_t first)
+  PublishingSource(Service& service, Outputs& outputs, const Positions& first)
       : ServiceActivity<Source>(service),
         thread_(service.data_thread()),
         outputs_(outputs),
         next_index_(outputs.size(), 0),
-        next_sequence_(first) {}
+        next_number_(outputs.size(), 0) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const auto position = first.find(key(i));
+      if (position != first.end()) next_number_[i] = position->second;
+    }
+  }
 
-  [[nodiscard]] std::uint64_t next_sequence() const { return next_sequence_; }
+  /// Where a successor begins.
+  [[nodiscard]] Positions next() const {
+    Positions next;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) next[key(i)] = next_number_[i];
+    return next;
+  }
 
   bool publish(msg::Scan& scan) override {
     if (service_.stop.requested()) return false;
     const std::int64_t taken = now_ns();
-    const std::int64_t published = write(0, &scan, scan.header(), next_sequence_++, taken);
+    const std::int64_t published = write(0, &scan, scan.header(), next_number_[0]++, taken);
     if (published > 0) {
       service_.record.count_result(published, taken, published, 0);
     } else {
@@ -47,13 +57,17 @@ class PublishingSource final : public ServiceActivity<Source> {
     for (std::size_t i = 1; i < outputs_.size(); ++i) {
       if (outputs_[i].output->type() != type) continue;
       if (service_.stop.requested()) return false;
-      (void)write(i, message, header, next_index_[i], now_ns());
+      if (write(i, message, header, next_number_[i], now_ns()) > 0) ++next_number_[i];
       return !service_.stop.requested();
     }
     throw std::logic_error("no output of that message type");
   }
 
  private:
+  [[nodiscard]] std::string key(std::size_t output) const {
+    return output == 0 ? "" : output_key(outputs_[output].port.type);
+  }
+
   /// The time of its publication [ns]; 0 when it was not taken.
   std::int64_t write(std::size_t index, void* message, msg::Header& header,
                      std::uint64_t sequence_number, std::int64_t taken) {
@@ -76,24 +90,25 @@ class PublishingSource final : public ServiceActivity<Source> {
 
   DataThread thread_;
   Outputs& outputs_;
-  std::vector<std::uint64_t> next_index_;  // by output
-  std::uint64_t next_sequence_;            // of the scans
+  std::vector<std::uint64_t> next_index_;   // by output
+  std::vector<std::uint64_t> next_number_;  // likewise; of scans those are counted that are lost
 };
 
-/// The number of the first scan; nothing when asked to stop before there is one to publish.
-std::optional<std::uint64_t> wait_for_begin(Service& service, const Outputs& outputs,
+/// The numbers to begin with; nothing when asked to stop before there is a scan to publish.
+std::optional<Positions> wait_for_begin(Service& service, const Outputs& outputs,
                                             Succession& succession) {
   std::vector<const Output*> waiting;
   for (const Node::OutputPart& part : outputs) waiting.push_back(part.output.get());
   if (!service.wait_for_readers(waiting, succession)) return std::nullopt;
-  if (!succession.held()) return 0;
+  if (!succession.held()) return Positions();
   service.record.set_state(msg::ServiceState::STATE_HELD);
   while (true) {
     if (const auto begin = succession.begin()) {
       const auto position = begin->positions.find("");
-      const std::uint64_t first = position == begin->positions.end() ? 0 : position->second;
-      service.record.set_first_sequence_number(first);
-      return first;
+      if (position != begin->positions.end()) {
+        service.record.set_first_sequence_number(position->second);
+      }
+      return begin->positions;
     }
     const auto soon = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
     if (!service.stop.wait_until(soon)) return std::nullopt;
@@ -160,7 +175,7 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
     if (succession.asked()) service.stop.request();
   });
   int exit_code = exit_ok;
-  std::uint64_t next = 0;
+  Positions next{{"", 0}};
   msg::ServiceState state = msg::ServiceState::STATE_STOPPED;
   std::string detail;
   if (const auto first = wait_for_begin(service, outputs, succession)) {
@@ -175,14 +190,14 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
       detail = error.what();
       exit_code = exit_input;
     }
-    next = source.next_sequence();
+    next = source.next();
   }
   service.heartbeat.stopping();
   if (!all_is_acknowledged(service, outputs)) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
   succession.on_request(nullptr);
-  succession.left({{"", next}}, {});
+  succession.left(next, {});
   service.heartbeat.finish(state, detail);
   service.record.set_endpoint_report(nullptr);
   return exit_code;
