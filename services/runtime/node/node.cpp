@@ -327,7 +327,7 @@ void Node::publish(std::size_t index, const Pending& pending, std::size_t failur
   }
   const auto& first = pending.message.header->trace();
   thread_.record.count_result(first.empty() ? pending.received : first.front().published(),
-                              pending.received, published == 0 ? now_ns() : published, failures);
+                              pending.received, published, failures);
 }
 
 /// A result per input goes by the name of what it was made from. What has a rate of its own is

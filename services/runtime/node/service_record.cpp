@@ -146,8 +146,9 @@ void ServiceRecord::count_output(std::size_t output, bool published) {
 void ServiceRecord::count_result(std::int64_t scan_published, std::int64_t received,
                                  std::int64_t published, std::size_t failures) {
   const std::lock_guard lock(mutex_);
-  ++status_.published();
   status_.failures() += failures;
+  if (published == 0) return;
+  ++status_.published();
   latency_.add(seconds(scan_published, published));
   processing_.add(seconds(received, published));
 }

@@ -64,7 +64,8 @@ class ServiceRecord {
   void count_control_drop();
   /// A message went out on that topic, or did not.
   void count_output(std::size_t output, bool published);
-  /// A result was published: stage times [ns since the Unix epoch] and parts without a result.
+  /// A message was handled: stage times [ns since the Unix epoch], `published` being 0 when nothing
+  /// was to go out, and parts without a result.
   void count_result(std::int64_t scan_published, std::int64_t received, std::int64_t published,
                     std::size_t failures);
 

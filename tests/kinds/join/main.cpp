@@ -3,7 +3,7 @@
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "tests/kinds/join/kind.hpp"
 
 using namespace quoin;

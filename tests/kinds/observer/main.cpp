@@ -3,7 +3,7 @@
 #include <map>
 #include <memory>
 
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "tests/kinds/observer/kind.hpp"
 
 using namespace quoin;

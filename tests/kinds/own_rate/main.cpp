@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "tests/kinds/own_rate/kind.hpp"
 
 using namespace quoin;

@@ -3,7 +3,7 @@
 #include <idl/Corners.h>
 #include <memory>
 
-#include "services/runtime/node/run_node.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "tests/kinds/sink/kind.hpp"
 
 using namespace quoin;

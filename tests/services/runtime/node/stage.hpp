@@ -16,7 +16,7 @@
 #include <idl/Segments.h>
 
 #include "services/runtime/node/node.hpp"
-#include "services/runtime/process/clock.hpp"
+#include "services/runtime/node/clock.hpp"
 #include "services/topics/header.hpp"
 #include "tests/services/runtime/node/memory_ports.hpp"
 
