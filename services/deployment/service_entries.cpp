@@ -140,10 +140,8 @@ class ServiceReader {
   void read_port(const Entry& entry) {
     const KindInfo* kind = draft_.config.info;
     if (kind != nullptr && kind->input(entry.key) == nullptr) {
-      std::vector<std::string> names;
-      for (const InputPort& port : kind->inputs) names.push_back(port.name);
-      wrong_inputs(entry.key_at, "kind " + kind->name + " has no port '" + entry.key + "'" +
-                                     suggestion(entry.key, names) + "; it has " + ports_of(*kind));
+      wrong_inputs(entry.key_at, "kind " + kind->name + " has no port '" + entry.key + "'; it has " +
+                                     ports_of(*kind));
       return;
     }
     if (const auto text = read_text(entry, problems_)) {

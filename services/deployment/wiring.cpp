@@ -156,6 +156,7 @@ void check_inputs(const ServiceConfig& service, const Index& index,
     const ServiceConfig& writer = services[found->second];
     const InputPort* port = service.info == nullptr ? nullptr : service.info->input(input.port);
     if (writer.info == nullptr || (port == nullptr && !writer.outputs.empty())) continue;
+    if (writer.external() && writer.outputs.front().type.empty()) continue;  // has been said
     const std::string wanted = port == nullptr ? "messages" : port->type;
     if (writer.output(wanted) == nullptr) {
       problems.add(input.position, mismatch(writer, service, wanted, kinds));
