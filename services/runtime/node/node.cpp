@@ -34,7 +34,7 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
            DataThread thread)
     : settings_(std::move(settings)),
       thread_(std::move(thread)),
-      exchange_(settings_.method, settings_.parameters, std::move(make)),
+      exchange_(settings_.method, settings_.parameters, std::move(make), settings_.longest_exchange),
       succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
       next_index_(outputs_.size(), 0) {

@@ -48,6 +48,8 @@ class Node {
     /// How long a message waits for those around its stamp on a `by_time` port.
     std::chrono::milliseconds join_patience{200};
     std::chrono::milliseconds longest_handover{5000};
+    /// For a message to exchange the method at, before the request is answered.
+    std::chrono::milliseconds longest_exchange{2000};
   };
 
   /// Makes the method. Throws ParameterError.

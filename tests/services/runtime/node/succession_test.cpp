@@ -161,7 +161,7 @@ TEST_F(SuccessionTest, ThePredecessorWaitsForTheScansThatItIsToHandle) {
 TEST_F(SuccessionTest, MessagesThatThePredecessorHandledMayComeLate) {
   const auto predecessor = start(false);
   const auto successor = start(true);
-  scans_.arrives = [](std::size_t reader) { return reader == 0; };
+  scans_.arrivals = [](std::size_t reader) { return reader == 0 ? 1 : 0; };
   publish(4);
   predecessor->stage.run();
   const msg::ControlReply left = hand_over(predecessor->stage, positions_of(hold(successor->stage)));
@@ -172,7 +172,7 @@ TEST_F(SuccessionTest, MessagesThatThePredecessorHandledMayComeLate) {
     scan.header().trace().resize(1);
     successor->queue->push(scan);
   }
-  scans_.arrives = [](std::size_t) { return true; };
+  scans_.arrivals = [](std::size_t) { return 1; };
   publish(2);
   successor->stage.run();
   expect_all();
