@@ -21,9 +21,12 @@ inline const KindInfo fitter{.name = "fitter",
                              .program = "launch_test",
                              .inputs = {{"scan", "scan"}},
                              .outputs = {{"lines"}}};
-inline const KindInfo device{.name = "device", .description = "", .program = "launch_test", .exclusive = true};
-inline const KindInfo tape{.name = "tape", .description = "", .program = "launch_test", .observer = true};
-inline const KindInfo missing{.name = "missing", .description = "", .program = "no-such-program", .outputs = {{"scan"}}};
+inline const KindInfo device{
+    .name = "device", .description = "", .program = "launch_test", .exclusive = true};
+inline const KindInfo tape{
+    .name = "tape", .description = "", .program = "launch_test", .observer = true};
+inline const KindInfo missing{
+    .name = "missing", .description = "", .program = "no-such-program", .outputs = {{"scan"}}};
 /// Its methods keep what they know: two of them in one form.
 inline const KindInfo mapper{
     .name = "mapper",
@@ -32,13 +35,28 @@ inline const KindInfo mapper{
     .inputs = {{"lines", "lines"}, {"odometry", "segments", Join::by_time}},
     .outputs = {{"corners"}},
     .methods = {{.name = "plain", .description = "", .source = "", .choose = "", .parameters = {}},
-                {.name = "lines", .description = "", .source = "", .choose = "", .parameters = {}, .state = "line_map/1"},
-                {.name = "fast_lines", .description = "", .source = "", .choose = "", .parameters = {}, .state = "line_map/1"},
-                {.name = "grid", .description = "", .source = "", .choose = "", .parameters = {}, .state = "grid/1"}}};
+                {.name = "lines",
+                 .description = "",
+                 .source = "",
+                 .choose = "",
+                 .parameters = {},
+                 .state = "line_map/1"},
+                {.name = "fast_lines",
+                 .description = "",
+                 .source = "",
+                 .choose = "",
+                 .parameters = {},
+                 .state = "line_map/1"},
+                {.name = "grid",
+                 .description = "",
+                 .source = "",
+                 .choose = "",
+                 .parameters = {},
+                 .state = "grid/1"}}};
 
-[[nodiscard]] inline ServiceConfig service(const std::string& name, const KindInfo& kind,
-                                           std::vector<std::pair<std::string, std::string>> inputs = {},
-                                           const std::string& method = "") {
+[[nodiscard]] inline ServiceConfig service(
+    const std::string& name, const KindInfo& kind,
+    std::vector<std::pair<std::string, std::string>> inputs = {}, const std::string& method = "") {
   ServiceConfig config;
   config.name = name;
   config.kind = kind.name;

@@ -61,21 +61,24 @@ TEST(Launch, ADeviceOutlivesAllOthers) {
 }
 
 TEST(Launch, ObserversOutsideAreWaitedFor) {
-  const auto all = process_plans(robot(), "", [](const ServiceConfig& config) { return config.name == "map" ? 2 : 0; });
-  EXPECT_THAT(named(all, "map").arguments,
-              ElementsAre("--service", "map", "--deployment", "/robots/robot.yaml", "--observers", "2"));
+  const auto all = process_plans(
+      robot(), "", [](const ServiceConfig& config) { return config.name == "map" ? 2 : 0; });
+  EXPECT_THAT(named(all, "map").arguments, ElementsAre("--service", "map", "--deployment",
+                                                       "/robots/robot.yaml", "--observers", "2"));
   EXPECT_EQ(named(all, "fit").arguments.size(), 4U);
 }
 
 TEST(Launch, ServicesReadTheCopyButNameTheFile) {
   const auto all = process_plans(robot(), "", no_observers, "/proc/1/fd/7");
   EXPECT_THAT(named(all, "fit").arguments,
-              ElementsAre("--service", "fit", "--deployment", "/proc/1/fd/7", "--deployment-name", "/robots/robot.yaml"));
+              ElementsAre("--service", "fit", "--deployment", "/proc/1/fd/7", "--deployment-name",
+                          "/robots/robot.yaml"));
 }
 
 TEST(Launch, AStrangersProgramIsStartedAsItIsWritten) {
-  const auto all = plans(deployment({stranger("camera", "rt/scan", "best_effort", {"/opt/camera", "--fast"}),
-                                     stranger("elsewhere", "rt/other"), service("fit", fitter, {{"scan", "camera"}})}));
+  const auto all = plans(deployment(
+      {stranger("camera", "rt/scan", "best_effort", {"/opt/camera", "--fast"}),
+       stranger("elsewhere", "rt/other"), service("fit", fitter, {{"scan", "camera"}})}));
   ASSERT_EQ(all.size(), 2U) << "the other stranger is nobody's process";
   EXPECT_EQ(named(all, "camera").program, "/opt/camera");
   EXPECT_THAT(named(all, "camera").arguments, ElementsAre("--fast"));
@@ -84,7 +87,8 @@ TEST(Launch, AStrangersProgramIsStartedAsItIsWritten) {
 
 TEST(Launch, OnlyTheShareOfTheHostIsStarted) {
   Deployment two_hosts = robot();
-  for (ServiceConfig& each : two_hosts.services) each.host = each.name == "front" ? "base" : "cabin";
+  for (ServiceConfig& each : two_hosts.services)
+    each.host = each.name == "front" ? "base" : "cabin";
   EXPECT_EQ(plans(two_hosts, "base").size(), 1U);
   const auto cabin = plans(two_hosts, "cabin");
   ASSERT_EQ(cabin.size(), 3U);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/orchestration/plan.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "deploy/orchestration/plan.hpp"
 #include "tests/deploy/orchestration/kind_fixtures.hpp"
 
 namespace quoin::deploy {
@@ -21,7 +20,8 @@ using Ports = std::vector<std::pair<std::string, std::string>>;
 Deployment robot(const std::string& method = "plain",
                  const Ports& ports = {{"lines", "fit"}, {"odometry", "front"}}) {
   return deployment({service("front", lidar), service("rear", lidar),
-                     service("fit", fitter, {{"scan", "front"}}), service("map", mapper, ports, method)});
+                     service("fit", fitter, {{"scan", "front"}}),
+                     service("map", mapper, ports, method)});
 }
 
 Change change_of(const std::string& name, const Deployment& running, const Deployment& wanted) {
@@ -96,7 +96,8 @@ TEST(PlanOfState, AReplacementCarriesItOverOrSaysThatItDoesNot) {
 }
 
 TEST(PlanOfStrangers, WhoRunsElsewhereIsNoPartOfIt) {
-  const Deployment running = deployment({stranger("camera", "rt/scan"), service("fit", fitter, {{"scan", "camera"}})});
+  const Deployment running =
+      deployment({stranger("camera", "rt/scan"), service("fit", fitter, {{"scan", "camera"}})});
   const Plan plan = plan_changes(running, running);
   ASSERT_EQ(plan.changes.size(), 1U);
   EXPECT_EQ(plan.changes[0].service, "fit");
@@ -115,8 +116,10 @@ TEST(PlanOfStrangers, AnotherTopicOrQosReplacesTheReader) {
 
 TEST(PlanOfStrangers, TheirProgramsAreStartedReplacedAndStopped) {
   const Deployment none = deployment({stranger("camera", "rt/scan")});
-  const Deployment one = deployment({stranger("camera", "rt/scan", "best_effort", {"/opt/camera", "--fast"})});
-  const Deployment other = deployment({stranger("camera", "rt/scan", "best_effort", {"/opt/camera"})});
+  const Deployment one =
+      deployment({stranger("camera", "rt/scan", "best_effort", {"/opt/camera", "--fast"})});
+  const Deployment other =
+      deployment({stranger("camera", "rt/scan", "best_effort", {"/opt/camera"})});
   EXPECT_EQ(change_of("camera", none, one).action, ChangeAction::start);
   EXPECT_EQ(to_text(change_of("camera", one, other)), "replace camera: program");
   EXPECT_EQ(to_text(change_of("camera", one, none)), "stop camera");

@@ -15,21 +15,30 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// The kinds of a robot, as far as wiring goes. The types are some of the table; what `lidar` gives at
-// its own rate stands for odometry.
-const KindInfo lidar{.name = "lidar",
-                     .description = "",
-                     .outputs = {{"scan"}, {"lines", Rate::own_rate}}};
-const KindInfo walls{.name = "walls", .description = "", .inputs = {{"scan", "scan"}}, .outputs = {{"segments"}}};
-const KindInfo fitter{.name = "fitter", .description = "", .inputs = {{"segments", "segments"}}, .outputs = {{"lines"}}};
+// The kinds of a robot, as far as wiring goes. The types are some of the table; what `lidar` gives
+// at its own rate stands for odometry.
+const KindInfo lidar{
+    .name = "lidar", .description = "", .outputs = {{"scan"}, {"lines", Rate::own_rate}}};
+const KindInfo walls{
+    .name = "walls", .description = "", .inputs = {{"scan", "scan"}}, .outputs = {{"segments"}}};
+const KindInfo fitter{.name = "fitter",
+                      .description = "",
+                      .inputs = {{"segments", "segments"}},
+                      .outputs = {{"lines"}}};
 const KindInfo pose{.name = "pose",
                     .description = "",
-                    .inputs = {{"lines", "lines"}, {"odometry", "lines", Join::by_time}, {"map", "corners", Join::latest, false}},
+                    .inputs = {{"lines", "lines"},
+                               {"odometry", "lines", Join::by_time},
+                               {"map", "corners", Join::latest, false}},
                     .outputs = {{"corners"}}};
-const KindInfo mapper{.name = "mapper", .description = "", .inputs = {{"lines", "lines"}}, .outputs = {{"corners", Rate::own_rate}}};
+const KindInfo mapper{.name = "mapper",
+                      .description = "",
+                      .inputs = {{"lines", "lines"}},
+                      .outputs = {{"corners", Rate::own_rate}}};
 const KindInfo tape{.name = "tape", .description = "", .observer = true};
 
-ServiceConfig service(const std::string& name, const KindInfo* kind, std::vector<InputConfig> inputs = {}) {
+ServiceConfig service(const std::string& name, const KindInfo* kind,
+                      std::vector<InputConfig> inputs = {}) {
   ServiceConfig config;
   config.name = name;
   config.kind = kind == nullptr ? "unknown" : kind->name;
@@ -37,7 +46,8 @@ ServiceConfig service(const std::string& name, const KindInfo* kind, std::vector
   config.inputs = std::move(inputs);
   if (kind == nullptr) return config;
   for (const OutputPort& port : kind->outputs) {
-    config.outputs.push_back({port.type, output_topic("robot", name, port.type), "feature", port.rate});
+    config.outputs.push_back(
+        {port.type, output_topic("robot", name, port.type), "feature", port.rate});
   }
   return config;
 }
@@ -68,7 +78,8 @@ std::vector<std::string> labels(const std::vector<const ServiceConfig*>& service
 /// "front/scan", the output of each.
 std::vector<std::string> texts(const std::vector<Connection>& connections) {
   std::vector<std::string> texts;
-  for (const Connection& each : connections) texts.push_back(each.writer->name + "/" + each.output.type);
+  for (const Connection& each : connections)
+    texts.push_back(each.writer->name + "/" + each.output.type);
   return texts;
 }
 
@@ -87,9 +98,9 @@ TEST(Graph, InputsComeBeforeTheirReadersElseAsTheyWere) {
 }
 
 TEST(Graph, StrongInstancesComeBeforeWeakOnes) {
-  const std::vector<ServiceConfig> services{instance(service("fit", &fitter, {by("segments", "walls")}), 1),
-                                            instance(service("fit", &fitter, {by("segments", "walls")}), 3),
-                                            service("walls", &walls)};
+  const std::vector<ServiceConfig> services{
+      instance(service("fit", &fitter, {by("segments", "walls")}), 1),
+      instance(service("fit", &fitter, {by("segments", "walls")}), 3), service("walls", &walls)};
   EXPECT_THAT(labels(Graph(services).order()), ElementsAre("walls", "fit@3", "fit@1"));
 }
 
@@ -137,14 +148,16 @@ TEST(Graph, AnObserverHasOneConnectionForEachTopic) {
 }
 
 TEST(Graph, OfAWriterOfUnknownKindAnObserverReadsAnyTypeThereIs) {
-  const std::vector<ServiceConfig> services{service("other", nullptr), service("tape", &tape, {by("", "other")})};
+  const std::vector<ServiceConfig> services{service("other", nullptr),
+                                            service("tape", &tape, {by("", "other")})};
   const auto inputs = Graph(services, "robot").inputs_of(services[1]);
   ASSERT_EQ(inputs.size(), topics::topic_types().size());
   EXPECT_EQ(inputs[0].output.topic, "robot/other/" + std::string(topics::topic_types()[0].name));
 }
 
 TEST(Graph, APortReadsTheTypeThatItNeedsOfAWriterOfUnknownKind) {
-  std::vector<ServiceConfig> services{service("other", nullptr), service("segments", &walls, {by("scan", "other")})};
+  std::vector<ServiceConfig> services{service("other", nullptr),
+                                      service("segments", &walls, {by("scan", "other")})};
   services[0].qos = "lossless";
   const auto inputs = Graph(services, "robot").inputs_of(services[1]);
   ASSERT_EQ(inputs.size(), 1U);
@@ -153,7 +166,8 @@ TEST(Graph, APortReadsTheTypeThatItNeedsOfAWriterOfUnknownKind) {
 }
 
 TEST(Graph, TheStrongestInstanceIsTheWriter) {
-  const std::vector<ServiceConfig> services{instance(service("front", &lidar), 1), instance(service("front", &lidar), 2),
+  const std::vector<ServiceConfig> services{instance(service("front", &lidar), 1),
+                                            instance(service("front", &lidar), 2),
                                             service("segments", &walls, {by("scan", "front")})};
   const auto inputs = Graph(services).inputs_of(services[2]);
   ASSERT_EQ(inputs.size(), 1U);
@@ -184,12 +198,13 @@ TEST(Graph, EachPortIsAReaderAndAnObserverOneForEachOutput) {
 }
 
 TEST(Graph, ReadersOfUnknownKindsAndAllInstancesAreExpected) {
-  std::vector<ServiceConfig> services{service("front", &lidar),
-                                      service("short", nullptr, {by("input", "front")}),
-                                      service("long", nullptr, {by("a", "front"), by("b", "front")}),
-                                      service("listing", nullptr, {by("", "front")}),
-                                      instance(service("fit", nullptr, {by("input", "front")}), 1),
-                                      instance(service("fit", nullptr, {by("input", "front")}), 2)};
+  std::vector<ServiceConfig> services{
+      service("front", &lidar),
+      service("short", nullptr, {by("input", "front")}),
+      service("long", nullptr, {by("a", "front"), by("b", "front")}),
+      service("listing", nullptr, {by("", "front")}),
+      instance(service("fit", nullptr, {by("input", "front")}), 1),
+      instance(service("fit", nullptr, {by("input", "front")}), 2)};
   EXPECT_EQ(Graph(services).expected_readers(services[0]), 1U + 2U + 2U + 2U);
   services[3].observes_all = true;
   EXPECT_EQ(Graph(services).expected_readers(services[0]), 7U);
@@ -203,7 +218,8 @@ TEST(Graph, TheSourceIsFoundByTheFirstEachPort) {
   ASSERT_EQ(services[4].name, "where");
   EXPECT_EQ(graph.source_of(services[4]).name, "front");
   EXPECT_EQ(graph.source_of(named(services, "rear")).name, "rear");
-  EXPECT_EQ(graph.source_of(named(services, "tape")).name, "tape") << "an observer's is of no meaning";
+  EXPECT_EQ(graph.source_of(named(services, "tape")).name, "tape")
+      << "an observer's is of no meaning";
 }
 
 TEST(Graph, UpstreamIsTheNearestThatGivesTheType) {
@@ -211,7 +227,8 @@ TEST(Graph, UpstreamIsTheNearestThatGivesTheType) {
   const Graph graph(services);
   const ServiceConfig& where = named(services, "where");
   EXPECT_EQ(graph.upstream(where, "corners"), &where);
-  EXPECT_EQ(graph.upstream(where, "lines")->name, "wctls") << "front gives lines, too, but further on";
+  EXPECT_EQ(graph.upstream(where, "lines")->name, "wctls")
+      << "front gives lines, too, but further on";
   EXPECT_EQ(graph.upstream(where, "scan")->name, "front");
   EXPECT_EQ(graph.upstream(named(services, "segments"), "corners"), nullptr);
 }
@@ -219,14 +236,18 @@ TEST(Graph, UpstreamIsTheNearestThatGivesTheType) {
 TEST(Graph, APathBeginsWithTheOutputThatNumbersTheMessages) {
   auto services = robot();
   services.push_back(service("landmarks", &tape));
-  const KindInfo filter{.name = "filter", .description = "", .inputs = {{"corners", "corners"}}, .outputs = {{"segments"}}};
+  const KindInfo filter{.name = "filter",
+                        .description = "",
+                        .inputs = {{"corners", "corners"}},
+                        .outputs = {{"segments"}}};
   services.push_back(service("filtered", &filter, {by("corners", "mapping")}));
   const Graph graph(services);
   const auto path = [&](const std::string& name, std::string_view type) {
     const ServiceConfig& writer = named(services, name);
     return texts(graph.path_to(writer, *writer.output(type)));
   };
-  EXPECT_THAT(path("where", "corners"), ElementsAre("front/scan", "segments/segments", "wctls/lines", "where/corners"));
+  EXPECT_THAT(path("where", "corners"),
+              ElementsAre("front/scan", "segments/segments", "wctls/lines", "where/corners"));
   EXPECT_THAT(path("front", "scan"), ElementsAre("front/scan"));
   EXPECT_THAT(path("front", "lines"), ElementsAre("front/lines"));
   EXPECT_THAT(path("mapping", "corners"), ElementsAre("mapping/corners")) << "at its own rate";
@@ -237,14 +258,15 @@ TEST(Graph, EndsAreTheOutputsThatNoServiceButObserversReads) {
   auto services = robot();
   EXPECT_THAT(texts(Graph(services).ends()), ElementsAre("where/corners", "mapping/corners"));
   services[3].inputs.pop_back();  // where reads no odometry
-  EXPECT_THAT(texts(Graph(services).ends()), ElementsAre("front/lines", "where/corners", "mapping/corners"))
+  EXPECT_THAT(texts(Graph(services).ends()),
+              ElementsAre("front/lines", "where/corners", "mapping/corners"))
       << "one of two outputs";
 }
 
 TEST(Graph, AnEndOfSeveralInstancesIsOneOfTheStrongest) {
-  const std::vector<ServiceConfig> services{service("front", &walls),
-                                            instance(service("fit", &fitter, {by("segments", "front")}), 1),
-                                            instance(service("fit", &fitter, {by("segments", "front")}), 2)};
+  const std::vector<ServiceConfig> services{
+      service("front", &walls), instance(service("fit", &fitter, {by("segments", "front")}), 1),
+      instance(service("fit", &fitter, {by("segments", "front")}), 2)};
   const auto ends = Graph(services).ends();
   ASSERT_THAT(texts(ends), ElementsAre("fit/lines"));
   EXPECT_EQ(label(*ends[0].writer), "fit@2");
@@ -271,7 +293,8 @@ std::vector<std::vector<std::string>> cycles(
 }
 
 TEST(GraphCycles, ThereAreNoneWhereServicesReadTwoOfOneSource) {
-  EXPECT_THAT(cycles({{"a", {}}, {"b", {"a"}}, {"c", {"a", "b"}}, {"d", {"c", "b", "a"}}}), IsEmpty());
+  EXPECT_THAT(cycles({{"a", {}}, {"b", {"a"}}, {"c", {"a", "b"}}, {"d", {"c", "b", "a"}}}),
+              IsEmpty());
 }
 
 TEST(GraphCycles, AServiceMayReadItself) {
@@ -284,7 +307,8 @@ TEST(GraphCycles, EachIsFoundOnceWhereverOneBegins) {
 }
 
 TEST(GraphCycles, AreFoundThroughAnyPort) {
-  EXPECT_THAT(cycles({{"s", {}}, {"a", {"s", "b"}}, {"b", {"s", "a"}}}), ElementsAre(ElementsAre("a", "b")));
+  EXPECT_THAT(cycles({{"s", {}}, {"a", {"s", "b"}}, {"b", {"s", "a"}}}),
+              ElementsAre(ElementsAre("a", "b")));
 }
 
 TEST(GraphCycles, TwoThatHaveNothingInCommonAreBothFound) {
@@ -293,16 +317,18 @@ TEST(GraphCycles, TwoThatHaveNothingInCommonAreBothFound) {
 }
 
 TEST(GraphCycles, WhatIsInThemIsLeftOutOfTheOrder) {
-  const std::vector<ServiceConfig> services{service("s", nullptr), service("a", nullptr, {by("p", "b"), by("q", "s")}),
-                                            service("b", nullptr, {by("p", "a")}), service("c", nullptr, {by("p", "s")}),
-                                            service("behind", nullptr, {by("p", "b")})};
+  const std::vector<ServiceConfig> services{
+      service("s", nullptr), service("a", nullptr, {by("p", "b"), by("q", "s")}),
+      service("b", nullptr, {by("p", "a")}), service("c", nullptr, {by("p", "s")}),
+      service("behind", nullptr, {by("p", "b")})};
   const Graph graph(services);
   EXPECT_THAT(labels(graph.order()), ElementsAre("s", "c"));
   EXPECT_EQ(graph.level(services[1]), 0);
 }
 
 TEST(GraphCycles, NoWayThroughThemIsEndless) {
-  const std::vector<ServiceConfig> services{service("a", &walls, {by("scan", "b")}), service("b", &walls, {by("scan", "a")})};
+  const std::vector<ServiceConfig> services{service("a", &walls, {by("scan", "b")}),
+                                            service("b", &walls, {by("scan", "a")})};
   const Graph graph(services);
   EXPECT_LE(graph.path_to(services[0], services[0].outputs[0]).size(), 3U);
   EXPECT_EQ(graph.upstream(services[0], "corners"), nullptr);

@@ -24,7 +24,8 @@ bool happens(Random& random, double probability) {
 template <class In, class Out>
 class Service {
  public:
-  Service(Random& random, std::string name, MemoryTopic<In>& from, std::shared_ptr<MemoryTopic<Out>> to)
+  Service(Random& random, std::string name, MemoryTopic<In>& from,
+          std::shared_ptr<MemoryTopic<Out>> to)
       : random_(random), name_(std::move(name)), from_(from), to_(std::move(to)) {
     process_ = start(false);
   }
@@ -200,7 +201,8 @@ class History {
   std::uint64_t lost_ = 0;  // by the present process of the source
   std::map<std::uint64_t, SourceLedger::Process> sources_;
   MemoryTopic<msg::Scan> scans_;
-  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   std::shared_ptr<MemoryTopic<msg::Lines>> lines_ = std::make_shared<MemoryTopic<msg::Lines>>();
   std::shared_ptr<MemoryQueue<msg::Lines>> end_ = lines_->subscribe();
   Service<msg::Scan, msg::Segments> walls_{random_, "walls", scans_, segments_};

@@ -23,7 +23,8 @@ class RunningNode {
  public:
   RunningNode(MemoryTopic<msg::Scan>& scans, std::shared_ptr<MemoryTopic<msg::Segments>> results,
               bool held, MethodFactory make)
-      : stage_({.service = "walls", .held = held}, std::move(make), outputs(output_part(std::move(results)))) {
+      : stage_({.service = "walls", .held = held}, std::move(make),
+               outputs(output_part(std::move(results)))) {
     stage_.node().open(inputs(input_part({"scan", "scan"}, "front", scans.subscribe())));
     thread_ = std::thread([this] {
       while (!ending_ && !stage_.node().has_left()) {
@@ -87,18 +88,19 @@ std::vector<std::uint64_t> up_to(std::uint64_t count) {
 MethodFactory counting() {
   return [](const std::string&, const ParameterSettings&) {
     const auto count = std::make_shared<std::uint32_t>(0);
-    return Method{.handle = [count](Work& work) { work.output<msg::Segments>().scan_points((*count)++); },
-                  .state_form = "count/1",
-                  .save =
-                      [count] {
-                        const std::string text = std::to_string(*count);
-                        return State(text.begin(), text.end());
-                      },
-                  .restore =
-                      [count](const State& state) {
-                        *count = static_cast<std::uint32_t>(
-                            std::stoul(std::string(state.begin(), state.end())));
-                      }};
+    return Method{
+        .handle = [count](Work& work) { work.output<msg::Segments>().scan_points((*count)++); },
+        .state_form = "count/1",
+        .save =
+            [count] {
+              const std::string text = std::to_string(*count);
+              return State(text.begin(), text.end());
+            },
+        .restore =
+            [count](const State& state) {
+              *count =
+                  static_cast<std::uint32_t>(std::stoul(std::string(state.begin(), state.end())));
+            }};
   };
 }
 
@@ -137,8 +139,8 @@ TEST(NodeThreads, TheWorkGoesFromOneToTheNextWhileMessagesCome) {
   RunningSource front(scans);
   msg::ControlReply held;
   while (held.held_scans() == 0) held = hold(second.stage());
-  const msg::ControlReply left = answer(
-      first.stage(), request_to(msg::ControlAction::CONTROL_HAND_OVER, positions_of(held)));
+  const msg::ControlReply left =
+      answer(first.stage(), request_to(msg::ControlAction::CONTROL_HAND_OVER, positions_of(held)));
   EXPECT_TRUE(first.stage().status().outputs()[0].published() >= held.first_sequence_number());
   (void)take_over(second.stage(), positions_of(left), left.state());
   while (second.stage().status().published() < 20) std::this_thread::yield();
