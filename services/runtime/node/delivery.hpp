@@ -21,8 +21,8 @@ inline constexpr std::chrono::seconds longest_wait_for_acknowledgments{2};
 /// What the thread that data passes through works with.
 struct DataThread {
   ServiceRecord& record;
-  Pulse& pulse;                      ///< alive while it waits for readers
-  std::function<bool()> stopping;    ///< whether the service was asked to stop
+  Pulse& pulse;                    ///< alive while it waits for readers
+  std::function<bool()> stopping;  ///< whether the service was asked to stop
   /// The clock by which is waited.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };

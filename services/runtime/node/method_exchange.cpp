@@ -35,8 +35,8 @@ ParameterSettings merged(ParameterSettings settings, const ParameterSettings& ch
 
 }  // namespace
 
-MethodExchange::MethodExchange(std::string method, ParameterSettings parameters,
-                               MethodFactory make, std::chrono::milliseconds longest_wait)
+MethodExchange::MethodExchange(std::string method, ParameterSettings parameters, MethodFactory make,
+                               std::chrono::milliseconds longest_wait)
     : make_(std::move(make)),
       longest_wait_(longest_wait),
       name_(std::move(method)),

@@ -34,7 +34,8 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
            DataThread thread)
     : settings_(std::move(settings)),
       thread_(std::move(thread)),
-      exchange_(settings_.method, settings_.parameters, std::move(make)),
+      exchange_(settings_.method, settings_.parameters, std::move(make),
+                settings_.longest_exchange),
       succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
       next_index_(outputs_.size(), 0),
@@ -154,7 +155,8 @@ bool Node::hold() {
       any = true;
       if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
       port.incarnation = topics::origin(*message->header).incarnation();
-      port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
+      port.queue.push_back(
+          {std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
     }
   }
   if (const auto from = succession_.begin()) {
@@ -183,8 +185,8 @@ void Node::begin(const Succession::Begin& from) {
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
 
-/// What cannot be handled at once stays with DDS, whose QoS says what happens to it, unless it waits
-/// for what is joined to it.
+/// What cannot be handled at once stays with DDS, whose QoS says what happens to it, unless it
+/// waits for what is joined to it.
 bool Node::take_each(std::size_t index) {
   Port& port = *ports_[index];
   bool any = false;

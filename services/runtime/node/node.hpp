@@ -22,8 +22,8 @@ namespace quoin::runtime {
 
 /// One service at work: takes messages from its inputs, has its method handle each that comes by an
 /// `each` port together with what the other ports have for it, publishes the results and accounts
-/// for every message. Knows no DDS. One thread calls step(); requests come by another, to exchange()
-/// and succession().
+/// for every message. Knows no DDS. One thread calls step(); requests come by another, to
+/// exchange() and succession().
 class Node {
  public:
   using Clock = std::chrono::steady_clock;
@@ -48,6 +48,8 @@ class Node {
     /// How long a message waits for those around its stamp on a `by_time` port.
     std::chrono::milliseconds join_patience{200};
     std::chrono::milliseconds longest_handover{5000};
+    /// For a message to exchange the method at, before the request is answered.
+    std::chrono::milliseconds longest_exchange{2000};
   };
 
   /// Makes the method. Throws ParameterError.
@@ -82,7 +84,7 @@ class Node {
  private:
   struct Pending {
     Message message;
-    std::int64_t received = 0;  // [ns since the Unix epoch]
+    std::int64_t received = 0;   // [ns since the Unix epoch]
     Clock::time_point deadline;  // of its joins
   };
   struct Port {

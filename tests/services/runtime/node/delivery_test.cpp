@@ -33,8 +33,10 @@ class DeliveryTest : public testing::Test {
   ServiceRecord record_{ServiceConfig{}};
   Pulse pulse_;
   bool stopping_ = false;
-  DataThread thread_{record_, pulse_, [this] { return stopping_; }, [this] { return clock_.now(); }};
-  std::shared_ptr<MemoryTopic<msg::Segments>> topic_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  DataThread thread_{record_, pulse_, [this] { return stopping_; },
+                     [this] { return clock_.now(); }};
+  std::shared_ptr<MemoryTopic<msg::Segments>> topic_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   MemoryOutput<msg::Segments> output_{topic_};
   std::function<void()> on_try;
   int tries_ = 0;
@@ -109,7 +111,8 @@ TEST_F(DeliveryTest, ShowsThatItLivesWhileItWaits) {
   const auto begin = Pulse::Clock::now();
   EXPECT_TRUE(deliver(true));
   EXPECT_TRUE(pulse_.alive(begin, std::chrono::seconds(0)));
-  EXPECT_FALSE(pulse_.alive(begin + std::chrono::hours(1), std::chrono::seconds(0))) << "it has beaten";
+  EXPECT_FALSE(pulse_.alive(begin + std::chrono::hours(1), std::chrono::seconds(0)))
+      << "it has beaten";
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ class JoinTest : public testing::Test {
   Numbered<msg::Lines> wheels_{"wheels"};
   std::shared_ptr<MemoryQueue<msg::Scan>> scans_ = std::make_shared<MemoryQueue<msg::Scan>>();
   std::shared_ptr<MemoryQueue<msg::Lines>> odometry_ = std::make_shared<MemoryQueue<msg::Lines>>();
-  std::shared_ptr<MemoryTopic<msg::Segments>> results_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> results_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   std::vector<Joined> joined_;
   std::optional<Stage> stage_;
 };
@@ -173,7 +174,8 @@ TEST_F(JoinTest, APartnerAheadIsKeptForWhatComes) {
   for (int stamp = 0; stamp <= 500; stamp += 50) partner(stamp);
   for (const int stamp : {110, 220, 330}) scan(stamp);
   stage_->run();
-  EXPECT_THAT(joined_, ElementsAre(Joined{110, 100, 150}, Joined{220, 200, 250}, Joined{330, 300, 350}));
+  EXPECT_THAT(joined_,
+              ElementsAre(Joined{110, 100, 150}, Joined{220, 200, 250}, Joined{330, 300, 350}));
 }
 
 TEST_F(JoinTest, TheOrderOfMessagesIsKept) {
@@ -243,7 +245,8 @@ TEST_F(LatestTest, GivesTheNewestAndNeverWaits) {
   scan(200);
   scan(300);
   stage_->run();
-  EXPECT_THAT(joined_, ElementsAre(Joined{100, -1, -1}, Joined{200, 150, -1}, Joined{300, 150, -1}));
+  EXPECT_THAT(joined_,
+              ElementsAre(Joined{100, -1, -1}, Joined{200, 150, -1}, Joined{300, 150, -1}));
   EXPECT_EQ(unjoined(), 1U);
 }
 
@@ -259,7 +262,8 @@ TEST(Joins, ThePortsThatAreMissedAreAllNamed) {
                            input_part({"map", "corners", Join::latest}, "mapping", map)));
   scans->push(front.next());
   stage.run();
-  EXPECT_THAT(stage.status().detail(), testing::AllOf(HasSubstr("'wheels'"), HasSubstr("'mapping'")));
+  EXPECT_THAT(stage.status().detail(),
+              testing::AllOf(HasSubstr("'wheels'"), HasSubstr("'mapping'")));
   odometry->push(wheels.next());
   scans->push(front.next());
   stage.run();

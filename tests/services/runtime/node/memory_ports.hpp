@@ -81,8 +81,8 @@ struct MemoryTopic {
   std::vector<std::shared_ptr<MemoryQueue<T>>> readers;
   /// Asked at each write whether there is room.
   std::function<bool()> room = [] { return true; };
-  /// Whether a message that was taken gets to that reader.
-  std::function<bool(std::size_t reader)> arrives = [](std::size_t) { return true; };
+  /// How often a message that was taken gets to that reader.
+  std::function<int(std::size_t reader)> arrivals = [](std::size_t) { return 1; };
   std::vector<std::string> silent;  ///< readers that keep a lossless writer waiting
   std::vector<std::string> incompatible;
   std::size_t liveliness = 0;  ///< how often it was asserted
@@ -93,7 +93,7 @@ struct MemoryTopic {
   void publish(const T& message) {
     written.push_back(message);
     for (std::size_t i = 0; i < readers.size(); ++i) {
-      if (arrives(i)) readers[i]->push(message);
+      for (int copies = arrivals(i); copies > 0; --copies) readers[i]->push(message);
     }
   }
 };

@@ -76,7 +76,8 @@ msg::ControlRequest swap(const std::string& method, bool drop_state = false) {
   return request;
 }
 
-msg::ControlRequest with(msg::ControlRequest request, const std::string& name, const std::string& value) {
+msg::ControlRequest with(msg::ControlRequest request, const std::string& name,
+                         const std::string& value) {
   msg::ParameterSetting& setting = request.parameters().emplace_back();
   setting.name(name);
   setting.value(value);
@@ -101,8 +102,9 @@ std::vector<std::string> settings(const msg::ControlReply& reply) {
 class ExchangeTest : public testing::Test {
  protected:
   void make(const std::string& method, ParameterSettings parameters = {}) {
-    stage_.emplace(Node::Settings{.service = "walls", .method = method, .parameters = std::move(parameters)},
-                   methods_.factory(), outputs(output_part(results_)));
+    stage_.emplace(
+        Node::Settings{.service = "walls", .method = method, .parameters = std::move(parameters)},
+        methods_.factory(), outputs(output_part(results_)));
     stage_->node().open(inputs(input_part({"scan", "scan"}, "front", queue_)));
   }
   void publish(int count = 1) {
@@ -142,7 +144,8 @@ class ExchangeTest : public testing::Test {
   Methods methods_;
   Numbered<msg::Scan> front_{"front"};
   std::shared_ptr<MemoryQueue<msg::Scan>> queue_ = std::make_shared<MemoryQueue<msg::Scan>>();
-  std::shared_ptr<MemoryTopic<msg::Segments>> results_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> results_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   std::optional<Stage> stage_;
 };
 

@@ -22,7 +22,8 @@ const Node::Settings walls{.service = "walls", .method = "iepf"};
 class NodeTest : public testing::Test {
  protected:
   void make(MethodFactory factory = nothing_to_do(), bool lossless = false) {
-    stage_.emplace(walls, std::move(factory), outputs(output_part(segments_, Rate::per_input, lossless)));
+    stage_.emplace(walls, std::move(factory),
+                   outputs(output_part(segments_, Rate::per_input, lossless)));
     stage_->node().open(inputs(input_part({"scan", "scan"}, "front", queue_)));
   }
   void publish(const msg::Scan& scan) {
@@ -33,7 +34,8 @@ class NodeTest : public testing::Test {
 
   Numbered<msg::Scan> front_{"front"};
   std::shared_ptr<MemoryQueue<msg::Scan>> queue_ = std::make_shared<MemoryQueue<msg::Scan>>();
-  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   std::optional<Stage> stage_;
 };
 
@@ -68,7 +70,8 @@ TEST_F(NodeTest, EachMessageGivesOneResultWithItsHeader) {
 TEST_F(NodeTest, TheMethodFillsTheResultFromTheMessage) {
   make(always([](Work& work) {
     EXPECT_EQ(work.port(), "scan");
-    work.output<msg::Segments>().scan_points(static_cast<std::uint32_t>(work.input<msg::Scan>().ranges().size()));
+    work.output<msg::Segments>().scan_points(
+        static_cast<std::uint32_t>(work.input<msg::Scan>().ranges().size()));
     work.fail(2);
   }));
   msg::Scan scan = front_.next();
@@ -174,7 +177,8 @@ TEST_F(NodeTest, TellsWhatItsEndpointsKnow) {
   stage_->node().report_endpoints(status);
   EXPECT_EQ(status.outputs()[0].readers(), 2U);
   EXPECT_EQ(status.inputs()[0].writers(), 3U);
-  EXPECT_THAT(status.incompatible_qos(), ElementsAre(segments_->incompatible[0], queue_->incompatible[0]));
+  EXPECT_THAT(status.incompatible_qos(),
+              ElementsAre(segments_->incompatible[0], queue_->incompatible[0]));
   stage_->node().assert_liveliness();
   EXPECT_EQ(segments_->liveliness, 1U);
 }
@@ -214,9 +218,7 @@ TEST(NodeOutputs, EachHasItsOwnNumbersAndCounts) {
 /// A node that publishes a map every third message.
 class OwnRate : public testing::Test {
  protected:
-  OwnRate() {
-    stage_.node().open(inputs(input_part({"scan", "scan"}, "front", queue_)));
-  }
+  OwnRate() { stage_.node().open(inputs(input_part({"scan", "scan"}, "front", queue_))); }
   void publish(int count) {
     for (int i = 0; i < count; ++i) queue_->push(front_.next());
     stage_.run();
@@ -224,11 +226,12 @@ class OwnRate : public testing::Test {
 
   Numbered<msg::Scan> front_{"front"};
   std::shared_ptr<MemoryQueue<msg::Scan>> queue_ = std::make_shared<MemoryQueue<msg::Scan>>();
-  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> segments_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
   std::shared_ptr<MemoryTopic<msg::Lines>> map_ = std::make_shared<MemoryTopic<msg::Lines>>();
-  Stage stage_{walls,
-               always([](Work& work) {
-                 if (topics::sequence_number(*work.message().header) % 3 == 2) work.publish<msg::Lines>();
+  Stage stage_{walls, always([](Work& work) {
+                 if (topics::sequence_number(*work.message().header) % 3 == 2)
+                   work.publish<msg::Lines>();
                }),
                outputs(output_part(segments_), output_part(map_, Rate::own_rate))};
 };
@@ -286,8 +289,7 @@ TEST(NodeInputs, AnObserverAccountsForEachPortApart) {
   const auto scan_queue = std::make_shared<MemoryQueue<msg::Scan>>();
   const auto line_queue = std::make_shared<MemoryQueue<msg::Lines>>();
   std::vector<std::string> ports;
-  Stage stage({.service = "tape"},
-              always([&](Work& work) { ports.emplace_back(work.port()); }));
+  Stage stage({.service = "tape"}, always([&](Work& work) { ports.emplace_back(work.port()); }));
   stage.node().open(inputs(input_part({"front/scan", "scan"}, "front", scan_queue),
                            input_part({"walls/lines", "lines"}, "walls", line_queue)));
   for (int i = 0; i < 2; ++i) scan_queue->push(front.next());
@@ -297,7 +299,8 @@ TEST(NodeInputs, AnObserverAccountsForEachPortApart) {
   line_queue->push(last);
   line_queue->push(last);
   stage.run();
-  EXPECT_THAT(ports, testing::UnorderedElementsAre("front/scan", "front/scan", "walls/lines", "walls/lines"));
+  EXPECT_THAT(ports, testing::UnorderedElementsAre("front/scan", "front/scan", "walls/lines",
+                                                   "walls/lines"));
   const msg::ServiceStatus status = stage.status();
   ASSERT_EQ(status.inputs().size(), 2U);
   EXPECT_EQ(status.inputs()[0].received(), 2U);

@@ -4,9 +4,8 @@
 
 #include <chrono>
 #include <future>
-#include <utility>
-
 #include <idl/Control.h>
+#include <utility>
 
 #include "tests/services/runtime/node/stage.hpp"
 
@@ -35,13 +34,15 @@ namespace quoin::runtime {
 /// Of what is answered at once.
 [[nodiscard]] inline msg::ControlReply answer(Stage& stage, const msg::ControlRequest& request) {
   msg::ControlReply reply;
-  if (!stage.node().succession().handle(request, reply)) throw std::logic_error("not of a succession");
+  if (!stage.node().succession().handle(request, reply))
+    throw std::logic_error("not of a succession");
   return reply;
 }
 
 /// Asks for what another thread has to do: calls `work` until the answer is there.
 template <class Work>
-[[nodiscard]] msg::ControlReply answer(Stage& stage, const msg::ControlRequest& request, Work work) {
+[[nodiscard]] msg::ControlReply answer(Stage& stage, const msg::ControlRequest& request,
+                                       Work work) {
   auto reply = std::async(std::launch::async, [&] { return answer(stage, request); });
   while (reply.wait_for(std::chrono::seconds(0)) != std::future_status::ready) work();
   return reply.get();

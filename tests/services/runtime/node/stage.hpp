@@ -4,16 +4,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <idl/Corners.h>
+#include <idl/Lines.h>
+#include <idl/Scan.h>
+#include <idl/Segments.h>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <idl/Corners.h>
-#include <idl/Lines.h>
-#include <idl/Scan.h>
-#include <idl/Segments.h>
 
 #include "services/runtime/node/node.hpp"
 #include "services/runtime/node/clock.hpp"
@@ -128,7 +127,8 @@ template <class T>
 [[nodiscard]] Node::OutputPart output_part(std::shared_ptr<MemoryTopic<T>> topic,
                                            Rate rate = Rate::per_input, bool lossless = false) {
   const std::string type(typeid(T).name());
-  return {{type, rate}, "test/" + type, lossless, std::make_unique<MemoryOutput<T>>(std::move(topic))};
+  return {
+      {type, rate}, "test/" + type, lossless, std::make_unique<MemoryOutput<T>>(std::move(topic))};
 }
 
 template <class T>

@@ -61,7 +61,8 @@ class SuccessionTest : public testing::Test {
 
   Numbered<msg::Scan> front_{"front"};
   MemoryTopic<msg::Scan> scans_;
-  std::shared_ptr<MemoryTopic<msg::Segments>> results_ = std::make_shared<MemoryTopic<msg::Segments>>();
+  std::shared_ptr<MemoryTopic<msg::Segments>> results_ =
+      std::make_shared<MemoryTopic<msg::Segments>>();
 };
 
 TEST_F(SuccessionTest, AHeldProcessReadsAndPublishesNothing) {
@@ -123,7 +124,8 @@ TEST_F(SuccessionTest, NoneIsLostAndNoneDoubledWhereverThePredecessorStands) {
     predecessor->stage.run();
     successor->stage.run();
     expect_all();
-    EXPECT_EQ(positions_of(left).at("scan"), std::max<std::uint64_t>(4, 3 + static_cast<std::uint64_t>(ahead)));
+    EXPECT_EQ(positions_of(left).at("scan"),
+              std::max<std::uint64_t>(4, 3 + static_cast<std::uint64_t>(ahead)));
     EXPECT_EQ(successor->stage.status().lost(), 0U);
   }
 }
@@ -161,10 +163,11 @@ TEST_F(SuccessionTest, ThePredecessorWaitsForTheScansThatItIsToHandle) {
 TEST_F(SuccessionTest, MessagesThatThePredecessorHandledMayComeLate) {
   const auto predecessor = start(false);
   const auto successor = start(true);
-  scans_.arrives = [](std::size_t reader) { return reader == 0; };
+  scans_.arrivals = [](std::size_t reader) { return reader == 0 ? 1 : 0; };
   publish(4);
   predecessor->stage.run();
-  const msg::ControlReply left = hand_over(predecessor->stage, positions_of(hold(successor->stage)));
+  const msg::ControlReply left =
+      hand_over(predecessor->stage, positions_of(hold(successor->stage)));
   (void)take_over(successor->stage, positions_of(left));
   for (msg::Segments& segments : results_->written) {
     msg::Scan scan;
@@ -172,7 +175,7 @@ TEST_F(SuccessionTest, MessagesThatThePredecessorHandledMayComeLate) {
     scan.header().trace().resize(1);
     successor->queue->push(scan);
   }
-  scans_.arrives = [](std::size_t) { return true; };
+  scans_.arrivals = [](std::size_t) { return 1; };
   publish(2);
   successor->stage.run();
   expect_all();
@@ -236,7 +239,8 @@ TEST_F(SuccessionTest, ARestartOfTheSourceBeforeTheFirstScanIsFollowed) {
   publish(10);
   predecessor->stage.run();
   successor->stage.run();
-  const msg::ControlReply left = hand_over(predecessor->stage, positions_of(hold(successor->stage)));
+  const msg::ControlReply left =
+      hand_over(predecessor->stage, positions_of(hold(successor->stage)));
   (void)take_over(successor->stage, positions_of(left));
   front_.restart();
   publish(3);
@@ -260,24 +264,29 @@ TEST_F(SuccessionTest, RequestsThatDoNotFitAreRefused) {
   const auto held = start(true);
   EXPECT_THROW((void)hold(active->stage), std::runtime_error);
   EXPECT_THROW((void)take_over(active->stage, {}), std::runtime_error);
-  EXPECT_THROW((void)answer(held->stage, request_to(msg::ControlAction::CONTROL_HAND_OVER)), std::runtime_error);
+  EXPECT_THROW((void)answer(held->stage, request_to(msg::ControlAction::CONTROL_HAND_OVER)),
+               std::runtime_error);
   msg::ControlReply reply;
-  EXPECT_FALSE(active->stage.node().succession().handle(request_to(msg::ControlAction::CONTROL_DESCRIBE), reply));
+  EXPECT_FALSE(active->stage.node().succession().handle(
+      request_to(msg::ControlAction::CONTROL_DESCRIBE), reply));
 }
 
 /// A method that numbers what it has handled, over all processes.
 MethodFactory counting(std::string form = "count/1") {
   return [form](const std::string&, const ParameterSettings&) {
     const auto count = std::make_shared<std::uint8_t>(0);
-    return Method{.handle =
-                      [count](Work& work) { work.output<msg::Segments>().scan_points((*count)++); },
-                  .state_form = form,
-                  .save = [count] { return State{1, *count}; },
-                  .restore =
-                      [count](const State& state) {
-                        if (state.size() != 2 || state[0] != 1) throw std::invalid_argument("no count");
-                        *count = state[1];
-                      }};
+    return Method{
+        .handle = [count](Work& work) { work.output<msg::Segments>().scan_points((*count)++); },
+        .state_form = form,
+        .save =
+            [count] {
+              return State{1, *count};
+            },
+        .restore =
+            [count](const State& state) {
+              if (state.size() != 2 || state[0] != 1) throw std::invalid_argument("no count");
+              *count = state[1];
+            }};
   };
 }
 
@@ -421,15 +430,15 @@ TEST_F(TwoPortSuccession, AfterARefusedHandOverBothPortsGoOn) {
   publish(3, 3);
   predecessor->stage.run();
   bool came = false;
-  EXPECT_THROW((void)answer(predecessor->stage,
-                            request_to(msg::ControlAction::CONTROL_HAND_OVER,
-                                       {{"scan", 3}, {"lines", 100}}),
-                            [&] {
-                              predecessor->stage.run();
-                              if (!predecessor->stage.node().succession().asked()) return;
-                              if (!std::exchange(came, true)) publish(2, 2);
-                            }),
-               std::runtime_error);
+  EXPECT_THROW(
+      (void)answer(predecessor->stage,
+                   request_to(msg::ControlAction::CONTROL_HAND_OVER, {{"scan", 3}, {"lines", 100}}),
+                   [&] {
+                     predecessor->stage.run();
+                     if (!predecessor->stage.node().succession().asked()) return;
+                     if (!std::exchange(came, true)) publish(2, 2);
+                   }),
+      std::runtime_error);
   ASSERT_TRUE(came);
   publish(2, 2);
   predecessor->stage.run();
@@ -469,7 +478,8 @@ TEST(SuccessionRequests, ARefusalSaysWhatWasWaitedFor) {
   Succession predecessor(false, milliseconds(0));
   msg::ControlReply reply;
   try {
-    (void)predecessor.handle(request_to(msg::ControlAction::CONTROL_HAND_OVER, {{"scan", 7}}), reply);
+    (void)predecessor.handle(request_to(msg::ControlAction::CONTROL_HAND_OVER, {{"scan", 7}}),
+                             reply);
     FAIL() << "nobody has left";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("scan 7"));
