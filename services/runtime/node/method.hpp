@@ -21,7 +21,7 @@ namespace quoin::runtime {
 template <class T>
 struct Around {
   const T* before = nullptr;  ///< the newest that is not younger
-  const T* after = nullptr;   ///< the oldest that is not older; the same as before at an equal stamp
+  const T* after = nullptr;  ///< the oldest that is not older; the same as before at an equal stamp
 };
 
 /// What a method is called with: the message that came by an `each` port, what the other ports have

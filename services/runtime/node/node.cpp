@@ -168,8 +168,8 @@ void Node::begin(const Succession::Begin& from) {
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
 
-/// What cannot be handled at once stays with DDS, whose QoS says what happens to it, unless it waits
-/// for what is joined to it.
+/// What cannot be handled at once stays with DDS, whose QoS says what happens to it, unless it
+/// waits for what is joined to it.
 bool Node::take_each(std::size_t index) {
   Port& port = *ports_[index];
   bool any = false;
@@ -324,7 +324,8 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
   }
   for (const Work::Partner& partner : joined_) {
     for (const Message* message : {partner.before, partner.after}) {
-      if (message == nullptr || (message == partner.after && partner.after == partner.before)) continue;
+      if (message == nullptr || (message == partner.after && partner.after == partner.before))
+        continue;
       if (!message->header->origins().empty()) {
         out.origins().push_back(message->header->origins().front());
       }

@@ -22,8 +22,8 @@ namespace quoin::runtime {
 
 /// One service at work: takes messages from its inputs, has its method handle each that comes by an
 /// `each` port together with what the other ports have for it, publishes the results and accounts
-/// for every message. Knows no DDS. One thread calls step(); requests come by another, to exchange()
-/// and succession().
+/// for every message. Knows no DDS. One thread calls step(); requests come by another, to
+/// exchange() and succession().
 class Node {
  public:
   using Clock = std::chrono::steady_clock;
@@ -81,7 +81,7 @@ class Node {
  private:
   struct Pending {
     Message message;
-    std::int64_t received = 0;  // [ns since the Unix epoch]
+    std::int64_t received = 0;   // [ns since the Unix epoch]
     Clock::time_point deadline;  // of its joins
   };
   struct Port {
@@ -117,7 +117,7 @@ class Node {
   std::vector<OutputPart> outputs_;
   std::vector<std::uint64_t> next_index_;    // by output
   std::vector<std::uint64_t> first_number_;  // by output, of those at their own rate
-  std::vector<Work::Result> results_;      // by output
+  std::vector<Work::Result> results_;        // by output
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Work::Partner> joined_;  // for the present message
   bool joins_by_time_ = false;
