@@ -68,15 +68,15 @@ TEST_F(External, IsNumberedByDdsAndItsLossesAreCountedOnTheLink) {
   const auto seen = topics::sequence_number(header);
   ASSERT_EQ(kill(walls, SIGSTOP), 0);
   ASSERT_TRUE(run.status().wait_for("tape", [&](const auto& s) {
-    return s.inputs().size() > 0 && s.inputs()[0].received() > seen + 200;
+    return s.inputs().size() > 0 && s.inputs()[0].received() > seen + 100;
   })) << run.log();
   ASSERT_EQ(kill(walls, SIGCONT), 0);
   ASSERT_TRUE(tests::eventually([&] {
     corners.poll();
-    return topics::sequence_number(corners.messages().back().header()) > seen + 250;
+    return topics::sequence_number(corners.messages().back().header()) > seen + 200;
   }));
   ASSERT_TRUE(run.status().wait_for(
-      "walls", [](const auto& s) { return s.inputs()[0].lost() > 50 && s.losses().size() == 1; }));
+      "walls", [](const auto& s) { return s.inputs()[0].lost() > 0 && s.losses().size() == 1; }));
   EXPECT_EQ(run.latest("walls").losses().front().cause(), "link");
 
   // One that is started again goes on where DDS is.
@@ -91,7 +91,7 @@ TEST_F(External, IsNumberedByDdsAndItsLossesAreCountedOnTheLink) {
   const json figures = run.end();
   EXPECT_EQ(figures["services"].contains("lidar"), false);
   const json& end = figures["ends"]["corners"];
-  EXPECT_GT(end["lost_by_stage"]["walls"], 50) << end;
+  EXPECT_GT(end["lost_by_stage"]["walls"], 0) << end;
   EXPECT_EQ(end["scans_delivered"].get<int>() + end["scans_lost"].get<int>(),
             end["scans_expected"].get<int>());
   EXPECT_GT(end["scans_expected"], last) << end;
