@@ -9,8 +9,8 @@
 #include <Eigen/LU>
 
 #include "core/evaluation/cramer_rao.hpp"
-#include "core/statistics/order_statistics.hpp"
 #include "core/geometry/corner.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {

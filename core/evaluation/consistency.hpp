@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/interval.hpp"
 #include "core/evaluation/scene.hpp"
 #include "core/fitting/fit.hpp"
+#include "core/statistics/interval.hpp"
 
 namespace quoin {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "core/extraction/extraction.hpp"
-#include "core/statistics/interval.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "core/simulation/world.hpp"
+#include "core/statistics/interval.hpp"
 
 namespace quoin {
 

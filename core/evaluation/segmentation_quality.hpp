@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/statistics/interval.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/sensor_model.hpp"
 #include "core/simulation/world.hpp"
+#include "core/statistics/interval.hpp"
 
 namespace quoin {
 

@@ -18,8 +18,8 @@ struct MethodInfo {
   std::string source;  ///< publication it comes from
   std::string choose;  ///< when to choose it, and when not
   std::vector<ParameterInfo> parameters;
-  /// Name and version of the form of what it keeps from message to message, such as "line_map/1"; ""
-  /// when it keeps nothing. What has the same can go on where the other one ended.
+  /// Name and version of the form of what it keeps from message to message, such as "line_map/1";
+  /// "" when it keeps nothing. What has the same can go on where the other one ended.
   std::string state = {};
 };
 

@@ -13,18 +13,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "deploy/orchestration/checksum.hpp"
-#include "services/deployment/deployment.hpp"
-#include "services/keys/key_check.hpp"
-#include "services/keys/key_files.hpp"
 #include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
+#include "deploy/orchestration/checksum.hpp"
 #include "deploy/orchestration/concert.hpp"
 #include "deploy/orchestration/cue.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/requester.hpp"
 #include "deploy/orchestration/signals.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/keys/key_check.hpp"
+#include "services/keys/key_files.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 namespace {

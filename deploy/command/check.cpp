@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 
@@ -69,7 +69,8 @@ void print(const Deployment& deployment) {
     }
     std::string publishes;
     for (const OutputConfig& output : service.outputs) {
-      publishes += (publishes.empty() ? ", publishes " : ", ") + output.topic + " (" + output.qos + ")";
+      publishes +=
+          (publishes.empty() ? ", publishes " : ", ") + output.topic + " (" + output.qos + ")";
     }
     std::cout << reads << (publishes.empty() ? ", publishes nothing" : publishes) << '\n';
   }

@@ -11,16 +11,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/observation/comparison.hpp"
 #include "deploy/observation/comparison_report.hpp"
-#include "services/deployment/deployment.hpp"
-#include "deploy/kinds/kinds.hpp"
-#include "services/keys/key_files.hpp"
-#include "deploy/command/commands.hpp"
 #include "deploy/observation/display.hpp"
 #include "deploy/observation/scan_join.hpp"
-#include "deploy/orchestration/signals.hpp"
 #include "deploy/observation/table.hpp"
+#include "deploy/orchestration/signals.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/keys/key_files.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/topics/header.hpp"
@@ -172,8 +172,7 @@ class Listener {
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       const auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now());
       if (readers_[i]->wait_for_writers(1, std::max(left, milliseconds(0)))) continue;
-      display_.log("quoin", "nobody publishes " +
-                                selection_.services[i]->output("corners")->topic +
+      display_.log("quoin", "nobody publishes " + selection_.services[i]->output("corners")->topic +
                                 " yet; waiting (quoin up starts a deployment)");
     }
     for (const auto& reader : readers_) {
@@ -199,9 +198,10 @@ class Listener {
         any = true;
         const msg::Header& header = message_.header();
         if (header.trace().empty()) continue;  // not from a stage of this project
-        comparison_.add(
-            i, {topics::source(header), header.trace().front().incarnation(), topics::sequence_number(header)},
-            result_of(message_));
+        comparison_.add(i,
+                        {topics::source(header), header.trace().front().incarnation(),
+                         topics::sequence_number(header)},
+                        result_of(message_));
       }
     }
     return any;

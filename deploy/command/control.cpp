@@ -9,11 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/deployment/deployment.hpp"
-#include "services/keys/key_files.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/command/network_options.hpp"
 #include "deploy/orchestration/requester.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/keys/key_files.hpp"
 #include "services/runtime/dds/participant.hpp"
 
 namespace quoin::deploy {

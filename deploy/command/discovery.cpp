@@ -6,13 +6,13 @@
 #include <poll.h>
 #include <string>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/command/commands.hpp"
-#include "deploy/orchestration/signals.hpp"
-#include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/process/memory.hpp"
-#include "services/runtime/dds/participant.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "deploy/orchestration/signals.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/runtime/dds/interfaces.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/process/memory.hpp"
 
 namespace quoin::deploy {
 

@@ -10,14 +10,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/deployment/deployment.hpp"
+#include "deploy/command/commands.hpp"
+#include "deploy/command/network_options.hpp"
 #include "deploy/diagnostics/host_checks.hpp"
 #include "deploy/diagnostics/network_checks.hpp"
 #include "deploy/diagnostics/shared_memory.hpp"
-#include "deploy/command/commands.hpp"
 #include "deploy/observation/heartbeats.hpp"
 #include "deploy/orchestration/launch.hpp"
-#include "deploy/command/network_options.hpp"
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 
 namespace quoin::deploy {

@@ -8,17 +8,17 @@
 #include <optional>
 #include <string>
 
-#include "services/deployment/deployment.hpp"
-#include "deploy/evaluation/drawing/drawing.hpp"
 #include "deploy/command/commands.hpp"
+#include "deploy/evaluation/drawing/drawing.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/observation/display.hpp"
+#include "deploy/observation/scan_join.hpp"
 #include "deploy/orchestration/exclusive.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/launch.hpp"
-#include "deploy/observation/scan_join.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "deploy/orchestration/supervisor.hpp"
-#include "deploy/kinds/kinds.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

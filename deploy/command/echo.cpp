@@ -10,9 +10,9 @@
 
 #include "core/parameters/suggestion.hpp"
 #include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "services/deployment/deployment.hpp"
-#include "deploy/kinds/kinds.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/dds/participant.hpp"
@@ -132,10 +132,10 @@ int run(const EchoOptions& options) {
   const Deployment deployment = load_deployment(options.file);
   const ServiceConfig& service = deployment.service(options.service);
   const OutputConfig& output = output_of(service, options.type);
-  return echo(deployment,
-              {output.topic, *topics::find_topic_type(output.type),
-               runtime::observer_qos(service, output)},
-              options);
+  return echo(
+      deployment,
+      {output.topic, *topics::find_topic_type(output.type), runtime::observer_qos(service, output)},
+      options);
 }
 
 }  // namespace

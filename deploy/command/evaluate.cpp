@@ -10,11 +10,11 @@
 #include <thread>
 #include <unistd.h>
 
+#include "deploy/command/commands.hpp"
 #include "deploy/evaluation/evaluation.hpp"
 #include "deploy/evaluation/jobs.hpp"
 #include "deploy/evaluation/progress_display.hpp"
 #include "deploy/evaluation/sections.hpp"
-#include "deploy/command/commands.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "sensor_bridge/recordings/line_reader.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"

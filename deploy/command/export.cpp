@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "services/deployment/deployment.hpp"
+#include "deploy/command/commands.hpp"
 #include "deploy/export/compose.hpp"
 #include "deploy/export/export_plan.hpp"
 #include "deploy/export/output_file.hpp"
 #include "deploy/export/systemd.hpp"
 #include "deploy/export/visibility.hpp"
-#include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/launch.hpp"
-#include "deploy/kinds/kinds.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/keys/key_check.hpp"
 #include "services/keys/key_directory.hpp"
 #include "services/keys/key_files.hpp"
-#include "deploy/command/commands.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

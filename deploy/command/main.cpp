@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/command/commands.hpp"
+#include "services/deployment/deployment.hpp"
 
 int main(int argc, char** argv) {
   using namespace quoin;

@@ -8,11 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "deploy/kinds/kinds.hpp"
+#include "deploy/command/commands.hpp"
 #include "deploy/evaluation/methods/description.hpp"
 #include "deploy/evaluation/methods/measured_figures.hpp"
 #include "deploy/evaluation/methods/methods_page.hpp"
-#include "deploy/command/commands.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/command/network_options.hpp"
+
 #include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {

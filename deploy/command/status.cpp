@@ -9,12 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/command/commands.hpp"
-#include "deploy/observation/heartbeats.hpp"
 #include "deploy/command/network_options.hpp"
+#include "deploy/observation/heartbeats.hpp"
 #include "deploy/observation/summary.hpp"
 #include "deploy/observation/table.hpp"
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/node/clock.hpp"
 
 namespace quoin::deploy {
@@ -101,7 +101,8 @@ void print(const std::vector<Row>& rows) {
   }
 }
 
-nlohmann::ordered_json inputs_of(const msg::ServiceStatus& status, nlohmann::ordered_json& matched) {
+nlohmann::ordered_json inputs_of(const msg::ServiceStatus& status,
+                                 nlohmann::ordered_json& matched) {
   auto inputs = nlohmann::ordered_json::array();
   std::uint64_t writers = 0;
   for (const msg::InputStatus& input : status.inputs()) {

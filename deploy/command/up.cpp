@@ -9,22 +9,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "deploy/orchestration/file_watch.hpp"
-#include "services/deployment/deployment.hpp"
-#include "deploy/orchestration/apply_requests.hpp"
 #include "deploy/command/commands.hpp"
-#include "deploy/orchestration/composition.hpp"
-#include "deploy/orchestration/dialogue.hpp"
 #include "deploy/observation/display.hpp"
-#include "deploy/orchestration/exclusive.hpp"
-#include "deploy/orchestration/host.hpp"
-#include "deploy/orchestration/launch.hpp"
 #include "deploy/observation/monitor.hpp"
-#include "deploy/orchestration/requester.hpp"
-#include "deploy/orchestration/signals.hpp"
 #include "deploy/observation/summary.hpp"
 #include "deploy/observation/table.hpp"
+#include "deploy/orchestration/apply_requests.hpp"
+#include "deploy/orchestration/composition.hpp"
+#include "deploy/orchestration/dialogue.hpp"
+#include "deploy/orchestration/exclusive.hpp"
+#include "deploy/orchestration/file_watch.hpp"
+#include "deploy/orchestration/host.hpp"
+#include "deploy/orchestration/launch.hpp"
+#include "deploy/orchestration/requester.hpp"
+#include "deploy/orchestration/signals.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

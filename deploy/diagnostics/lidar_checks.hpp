@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "deploy/diagnostics/lidar_report.hpp"
 #include "deploy/diagnostics/check.hpp"
+#include "deploy/diagnostics/lidar_report.hpp"
 
 namespace quoin::deploy {
 

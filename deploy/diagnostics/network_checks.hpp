@@ -30,8 +30,8 @@ struct HeardProcess {
 [[nodiscard]] Checks check_clocks(const std::vector<HeardProcess>& processes,
                                   const std::string& own_host);
 
-/// Whether two processes are at work under one label, which is what two deployments of one domain and
-/// namespace do.
+/// Whether two processes are at work under one label, which is what two deployments of one domain
+/// and namespace do.
 [[nodiscard]] Checks check_doubles(const std::vector<HeardProcess>& processes);
 
 /// What readers and writers of the services do not agree on.

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "deploy/kinds/kinds.hpp"
 #include "deploy/diagnostics/host_checks.hpp"
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/evaluation/consistency.hpp"
-#include "core/statistics/interval.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/sensor_model.hpp"
+#include "core/statistics/interval.hpp"
 #include "deploy/evaluation/drawing/plot.hpp"
 
 namespace quoin::deploy {

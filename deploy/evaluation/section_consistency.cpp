@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/evaluation/consistency.hpp"
-#include "core/extraction/extraction.hpp"
 #include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/papers/wctls_paper.hpp"
+#include "core/extraction/extraction.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/observation/table.hpp"

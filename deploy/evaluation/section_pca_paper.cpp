@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/statistics/order_statistics.hpp"
 #include "core/evaluation/papers/pca_paper.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/observation/table.hpp"

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/extraction/extraction.hpp"
 #include "core/evaluation/segmentation_quality.hpp"
 #include "core/evaluation/stopwatch.hpp"
+#include "core/extraction/extraction.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/simulation/cluttered_room.hpp"
 #include "deploy/evaluation/figures.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "sensor_bridge/rplidar/service/parameters.hpp"
-#include "services/deployment/graph.hpp"
 #include "sensor_bridge/transport/endpoint.hpp"
+#include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {
 

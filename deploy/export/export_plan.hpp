@@ -13,10 +13,10 @@ namespace quoin::deploy {
 
 /// A service as another supervisor has to run it, or the discovery servers of a host.
 struct ExportedService {
-  std::string label;    ///< of the service in the deployment file
-  std::string id;       ///< the same for names of units and containers
-  std::string kind;     ///< of the service; "discovery" for the servers
-  std::string program;  ///< file name of the executable
+  std::string label;                      ///< of the service in the deployment file
+  std::string id;                         ///< the same for names of units and containers
+  std::string kind;                       ///< of the service; "discovery" for the servers
+  std::string program;                    ///< file name of the executable
   std::vector<std::string> command = {};  ///< of kind external: the whole command line
   RestartPolicy restart = RestartPolicy::always;
   /// Those that have to be there first, by id: who reads the output, and for sources what stands in

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/evaluation/corner_matching.hpp"
-#include "core/statistics/quantile_histogram.hpp"
 #include "core/geometry/corner.hpp"
+#include "core/statistics/quantile_histogram.hpp"
 #include "deploy/observation/comparison_figures.hpp"
 
 namespace quoin::deploy {

@@ -24,7 +24,7 @@ namespace quoin::deploy {
 struct SourceInstance {
   std::string label;
   std::string service;
-  std::string type;  ///< of the numbered messages
+  std::string type;              ///< of the numbered messages
   runtime::SourceLedger ledger;  ///< has learned from all watches
 };
 
@@ -40,12 +40,12 @@ class CornerStatistics {
   QuantileHistogram ellipse_area_;
 };
 
-/// Takes what comes out of an output that no service reads, whatever its type, and accounts for each
-/// message of its source.
+/// Takes what comes out of an output that no service reads, whatever its type, and accounts for
+/// each message of its source.
 class EndWatch {
  public:
-  /// `name`: what its figures are called. `joined_late`: the deployment ran before, the scans so far
-  /// are for nobody. Throws std::runtime_error when DDS refuses.
+  /// `name`: what its figures are called. `joined_late`: the deployment ran before, the scans so
+  /// far are for nobody. Throws std::runtime_error when DDS refuses.
   EndWatch(runtime::Participant& participant, const Connection& end, std::string name,
            bool joined_late);
 
@@ -84,8 +84,8 @@ class EndWatch {
   std::string name_;
   std::string service_;
   std::string type_;
-  std::string source_;       // service that numbers the messages
-  std::string source_type_;  // of what it numbers
+  std::string source_;                         // service that numbers the messages
+  std::string source_type_;                    // of what it numbers
   std::map<std::string, std::string> topics_;  // by service on the way
   msg::StageTrace source_trace_;
   runtime::RawReader reader_;

@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/observation/figures.hpp"
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "services/keys/key_files.hpp"
 #include "deploy/observation/heartbeats.hpp"
-#include "services/runtime/node/clock.hpp"
 #include "services/deployment/graph.hpp"
+#include "services/keys/key_files.hpp"
 #include "services/runtime/dds/qos.hpp"
+#include "services/runtime/node/clock.hpp"
 
 namespace quoin::deploy {
 

@@ -15,12 +15,12 @@
 #include <thread>
 #include <vector>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/observation/end_watch.hpp"
 #include "deploy/observation/figures.hpp"
-#include "services/runtime/process/memory.hpp"
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
+#include "services/runtime/process/memory.hpp"
 
 namespace quoin::deploy {
 

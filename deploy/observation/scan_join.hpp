@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/evaluation/drawing/drawing.hpp"
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
 

@@ -81,8 +81,7 @@ std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size
                                         [](const EndFigures& end) { return end.corners; });
   Row head{"what comes out of", "type", "scans", "lost", "p50 / p99 [ms]"};
   if (with_corners) {
-    head.insert(head.end(),
-                {"corners/scan", "median sigma [mm]", "median ellipse area [mm^2]"});
+    head.insert(head.end(), {"corners/scan", "median sigma [mm]", "median ellipse area [mm^2]"});
   }
   lines.emplace_back();
   rows.assign({std::move(head)});
@@ -115,9 +114,8 @@ std::string progress_line(const DeploymentFigures& figures) {
               fixed(end.corners->median_sigma * 1e3, 2) + " mm";
     }
   }
-  const bool arriving =
-      std::any_of(figures.ends.begin(), figures.ends.end(),
-                  [](const EndFigures& end) { return end.scans_delivered > 0; });
+  const bool arriving = std::any_of(figures.ends.begin(), figures.ends.end(),
+                                    [](const EndFigures& end) { return end.scans_delivered > 0; });
   for (const ServiceFigures& service : figures.services) {
     const bool worth_saying = service.report.state != "active" || service.restarts > 0;
     if (arriving && !worth_saying) continue;

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "deploy/orchestration/plan.hpp"
-#include "services/deployment/deployment.hpp"
-#include "deploy/orchestration/dialogue.hpp"
 #include "deploy/observation/monitor.hpp"
+#include "deploy/orchestration/dialogue.hpp"
+#include "deploy/orchestration/plan.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

@@ -6,11 +6,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "deploy/orchestration/checksum.hpp"
 #include "deploy/kinds/kinds.hpp"
-#include "services/deployment/graph.hpp"
+#include "deploy/orchestration/checksum.hpp"
 #include "deploy/orchestration/host.hpp"
 #include "deploy/orchestration/launch.hpp"
+#include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "deploy/orchestration/frozen_file.hpp"
-#include "services/deployment/deployment.hpp"
 #include "deploy/orchestration/changeover.hpp"
 #include "deploy/orchestration/cue.hpp"
+#include "deploy/orchestration/frozen_file.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

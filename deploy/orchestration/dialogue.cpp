@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-
 namespace quoin::deploy {
 
 namespace {

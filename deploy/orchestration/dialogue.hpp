@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/orchestration/requester.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

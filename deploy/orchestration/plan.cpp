@@ -17,8 +17,7 @@ namespace {
 const ServiceConfig* find(const Deployment& deployment, std::string_view name,
                           const std::string& host) {
   const auto found = std::find_if(
-      deployment.services.begin(), deployment.services.end(),
-      [&](const ServiceConfig& service) {
+      deployment.services.begin(), deployment.services.end(), [&](const ServiceConfig& service) {
         return label(service) == name && service.host == host && service.has_process();
       });
   return found == deployment.services.end() ? nullptr : &*found;

@@ -4,5 +4,6 @@
 #include "sensor_bridge/replay/replay_source.hpp"
 
 int main(int argc, char** argv) {
-  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::replay_kind(), quoin::sensor_bridge::open_replay);
+  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::replay_kind(),
+                                    quoin::sensor_bridge::open_replay);
 }

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sensor_bridge/recordings/parameters.hpp"
-#include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
+#include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
 
 namespace quoin::sensor_bridge {

@@ -8,11 +8,12 @@
 namespace quoin::sensor_bridge {
 
 [[nodiscard]] inline const KindInfo& simulated_kind() {
-  static const KindInfo kind{.name = "simulated",
-                             .description = "scans of a simulated sensor in a world, built in or of a file",
-                             .program = "quoin-simulated",
-                             .outputs = {{"scan"}},
-                             .parameters = describe_parameters<SimulatedParameters>()};
+  static const KindInfo kind{
+      .name = "simulated",
+      .description = "scans of a simulated sensor in a world, built in or of a file",
+      .program = "quoin-simulated",
+      .outputs = {{"scan"}},
+      .parameters = describe_parameters<SimulatedParameters>()};
   return kind;
 }
 

@@ -4,5 +4,6 @@
 #include "sensor_bridge/simulated/simulated_source.hpp"
 
 int main(int argc, char** argv) {
-  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::simulated_kind(), quoin::sensor_bridge::open_simulated);
+  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::simulated_kind(),
+                                    quoin::sensor_bridge::open_simulated);
 }

@@ -8,12 +8,13 @@
 namespace quoin {
 
 [[nodiscard]] inline const KindInfo& corner_estimation_kind() {
-  static const KindInfo kind{.name = "corner_estimation",
-                             .description = "intersects neighbouring lines to corners with their covariances",
-                             .program = "quoin-corner-estimation",
-                             .inputs = {{"lines", "lines"}},
-                             .outputs = {{"corners"}},
-                             .methods = CornerFinders::descriptions()};
+  static const KindInfo kind{
+      .name = "corner_estimation",
+      .description = "intersects neighbouring lines to corners with their covariances",
+      .program = "quoin-corner-estimation",
+      .inputs = {{"lines", "lines"}},
+      .outputs = {{"corners"}},
+      .methods = CornerFinders::descriptions()};
   return kind;
 }
 

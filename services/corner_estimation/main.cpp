@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "core/corners/corner_finders.hpp"
+#include "services/corner_estimation/kind.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/topics/corners.hpp"
 #include "services/topics/lines.hpp"
-#include "services/runtime/process/run_node.hpp"
-#include "services/corner_estimation/kind.hpp"
 
 using namespace quoin;
 

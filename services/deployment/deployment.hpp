@@ -190,8 +190,8 @@ class DeploymentError : public std::runtime_error {
 /// Topic of an output of the service `name`.
 [[nodiscard]] std::string output_topic(std::string_view name_space, std::string_view name,
                                        std::string_view type);
-/// The preset of a topic of that type when the file asks for `wanted`, "" for the default. What late
-/// joiners need the newest of (state) stays so, whatever is asked for.
+/// The preset of a topic of that type when the file asks for `wanted`, "" for the default. What
+/// late joiners need the newest of (state) stays so, whatever is asked for.
 [[nodiscard]] std::string effective_qos(std::string_view wanted, std::string_view type);
 
 /// Topics shared by all services.

@@ -187,9 +187,8 @@ std::vector<const ServiceConfig*> Graph::order() const {
   };
   while (true) {
     const auto next = std::find_if(left.begin(), left.end(), [&](const ServiceConfig* service) {
-      return std::none_of(left.begin(), left.end(), [&](const ServiceConfig* other) {
-        return waits_for(*service, *other);
-      });
+      return std::none_of(left.begin(), left.end(),
+                          [&](const ServiceConfig* other) { return waits_for(*service, *other); });
     });
     if (next == left.end()) return ordered;
     ordered.push_back(*next);

@@ -16,15 +16,16 @@ namespace quoin {
 /// What an input port reads.
 struct Connection {
   const ServiceConfig* reader = nullptr;
-  std::string port = {};   ///< of the reader; "" of an observer
-  std::string type = {};   ///< "" when the reader's kind is not known here
+  std::string port = {};  ///< of the reader; "" of an observer
+  std::string type = {};  ///< "" when the reader's kind is not known here
   Join join = Join::each;
   const ServiceConfig* writer = nullptr;  ///< the strongest of its instances
-  OutputConfig output = {};  ///< of the writer
+  OutputConfig output = {};               ///< of the writer
 };
 
-/// Who reads whom in a deployment. Nobody else follows the wiring. Refers to the services it is made
-/// of, which must outlive it. Instances of one name count as one writer and as several readers.
+/// Who reads whom in a deployment. Nobody else follows the wiring. Refers to the services it is
+/// made of, which must outlive it. Instances of one name count as one writer and as several
+/// readers.
 class Graph {
  public:
   explicit Graph(const std::vector<ServiceConfig>& services, std::string_view name_space = "");

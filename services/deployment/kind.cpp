@@ -37,7 +37,8 @@ const KindInfo* KindList::find(std::string_view name) const {
 const KindInfo& external_kind() {
   static const KindInfo kind{
       .name = "external",
-      .description = "messages of a program that is no service of this project, on a topic of its own"};
+      .description =
+          "messages of a program that is no service of this project, on a topic of its own"};
   return kind;
 }
 

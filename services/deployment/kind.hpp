@@ -40,13 +40,15 @@ struct OutputPort {
 struct KindInfo {
   std::string name;
   std::string description;
-  std::string program = {};             ///< file name of the executable
-  std::vector<InputPort> inputs = {};   ///< of those that are `each`, the first decides the origin
+  std::string program = {};            ///< file name of the executable
+  std::vector<InputPort> inputs = {};  ///< of those that are `each`, the first decides the origin
   std::vector<OutputPort> outputs = {};
-  bool observer = false;   ///< reads all outputs of the services named in `inputs:`, of any type
-  bool exclusive = false;  ///< holds something of which there is one: ends before its successor begins
-  std::vector<MethodInfo> methods = {};        ///< empty for kinds without methods
-  std::vector<ParameterInfo> parameters = {};  ///< of the kind itself; empty where methods have them
+  bool observer = false;  ///< reads all outputs of the services named in `inputs:`, of any type
+  bool exclusive =
+      false;  ///< holds something of which there is one: ends before its successor begins
+  std::vector<MethodInfo> methods = {};  ///< empty for kinds without methods
+  std::vector<ParameterInfo> parameters =
+      {};  ///< of the kind itself; empty where methods have them
 
   [[nodiscard]] bool reads() const { return observer || !inputs.empty(); }
   /// Whether it publishes what no other service gave it.

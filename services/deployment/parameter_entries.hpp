@@ -21,7 +21,6 @@ namespace quoin {
 /// A time [s] from `lowest` to `highest`, with or without unit; nothing, and a problem, when it is
 /// none. `what` names it in error texts.
 [[nodiscard]] std::optional<double> read_seconds(const Entry& entry, const std::string& what,
-                                                 double lowest, double highest,
-                                                 Problems& problems);
+                                                 double lowest, double highest, Problems& problems);
 
 }  // namespace quoin

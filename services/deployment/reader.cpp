@@ -122,7 +122,8 @@ class Reader {
       return;
     }
     for (const YAML::Node& node : entry.value) {
-      if (auto draft = read_service(node, qos_, kinds_, problems_)) drafts_.push_back(std::move(*draft));
+      if (auto draft = read_service(node, qos_, kinds_, problems_))
+        drafts_.push_back(std::move(*draft));
     }
   }
 

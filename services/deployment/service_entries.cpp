@@ -51,8 +51,9 @@ class ServiceReader {
       kind_ = entry;
     } else if (entry.key == "input" || entry.key == "inputs") {
       if (inputs_) {
-        problems_.add(entry.key_at, "'" + entry.key + "' beside '" + inputs_->key + "' of service '" +
-                                        draft_.config.name + "'; write one of them");
+        problems_.add(entry.key_at, "'" + entry.key + "' beside '" + inputs_->key +
+                                        "' of service '" + draft_.config.name +
+                                        "'; write one of them");
         return;
       }
       inputs_ = entry;
@@ -82,10 +83,9 @@ class ServiceReader {
     } else {
       problems_.add(entry.key_at,
                     "unknown key '" + entry.key + "' of a service" +
-                        suggestion(entry.key,
-                                   {"name", "kind", "input", "inputs", "method", "parameters", "qos",
-                                    "restart", "host", "strength", "lease", "topic", "type",
-                                    "program"}));
+                        suggestion(entry.key, {"name", "kind", "input", "inputs", "method",
+                                               "parameters", "qos", "restart", "host", "strength",
+                                               "lease", "topic", "type", "program"}));
     }
   }
 
@@ -99,14 +99,14 @@ class ServiceReader {
       return;
     }
     if (!entry.value.IsScalar()) {
-      wrong_inputs(entry.value_at, "'input' names one service, not " + what_is(entry.value) +
-                                       (kind != nullptr && kind->observer
-                                            ? "; write inputs: [SERVICE, ...]"
-                                            : "; a port reads one"));
+      wrong_inputs(entry.value_at,
+                   "'input' names one service, not " + what_is(entry.value) +
+                       (kind != nullptr && kind->observer ? "; write inputs: [SERVICE, ...]"
+                                                          : "; a port reads one"));
       return;
     }
     const bool observer = kind != nullptr && kind->observer;
-    const std::string port = kind == nullptr         ? "input"  // whatever its name
+    const std::string port = kind == nullptr        ? "input"  // whatever its name
                              : kind->inputs.empty() ? ""
                                                     : kind->inputs.front().name;
     add_input(observer ? "" : port, entry.value.Scalar(), entry.value_at);
@@ -115,13 +115,15 @@ class ServiceReader {
   /// `inputs: {PORT: SERVICE}`, or `inputs: all` or a list of an observer.
   void read_ports(const Entry& entry) {
     const KindInfo* kind = draft_.config.info;
-    if (kind != nullptr && kind->observer ? entry.value.IsMap() : !entry.value.IsMap() && kind != nullptr) {
-      wrong_inputs(entry.value_at,
-                   kind->observer
-                       ? "kind " + kind->name + " reads whatever there is; write inputs: all or "
-                             "inputs: [SERVICE, ...]"
-                       : "'inputs' of kind " + kind->name + " must be a map of its ports (" +
-                             ports_of(*kind) + "), not " + what_is(entry.value));
+    if (kind != nullptr && kind->observer ? entry.value.IsMap()
+                                          : !entry.value.IsMap() && kind != nullptr) {
+      wrong_inputs(entry.value_at, kind->observer
+                                       ? "kind " + kind->name +
+                                             " reads whatever there is; write inputs: all or "
+                                             "inputs: [SERVICE, ...]"
+                                       : "'inputs' of kind " + kind->name +
+                                             " must be a map of its ports (" + ports_of(*kind) +
+                                             "), not " + what_is(entry.value));
       return;
     }
     if (entry.value.IsMap()) {
@@ -140,8 +142,8 @@ class ServiceReader {
   void read_port(const Entry& entry) {
     const KindInfo* kind = draft_.config.info;
     if (kind != nullptr && kind->input(entry.key) == nullptr) {
-      wrong_inputs(entry.key_at, "kind " + kind->name + " has no port '" + entry.key + "'; it has " +
-                                     ports_of(*kind));
+      wrong_inputs(entry.key_at, "kind " + kind->name + " has no port '" + entry.key +
+                                     "'; it has " + ports_of(*kind));
       return;
     }
     if (const auto text = read_text(entry, problems_)) {
@@ -170,10 +172,9 @@ class ServiceReader {
     const KindInfo* kind = draft_.config.info;
     if (kind != nullptr && !kind->reads()) {
       if (!inputs_) return;
-      wrong_inputs(inputs_->value_at,
-                   "kind " + kind->name +
-                       " is a source and reads no other service; remove the " + inputs_->key +
-                       " of '" + draft_.config.name + "'");
+      wrong_inputs(inputs_->value_at, "kind " + kind->name +
+                                          " is a source and reads no other service; remove the " +
+                                          inputs_->key + " of '" + draft_.config.name + "'");
       return;
     }
     if (inputs_) inputs_->key == "input" ? read_short_input(*inputs_) : read_ports(*inputs_);
@@ -223,8 +224,9 @@ class ServiceReader {
   void read_external(Position at) {
     OutputConfig output;
     if (!topic_) {
-      problems_.add(at, "service '" + draft_.config.name +
-                            "' of kind external needs the topic that it stands for; add topic: NAME");
+      problems_.add(at,
+                    "service '" + draft_.config.name +
+                        "' of kind external needs the topic that it stands for; add topic: NAME");
     } else if (const auto text = read_text(*topic_, problems_)) {
       if (text->empty() || text->size() > 4 * longest_name ||
           !only_of(*text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_/~")) {
@@ -243,7 +245,8 @@ class ServiceReader {
       output.type = read_choice(*type_, "type", types, problems_).value_or("");
     }
     output.qos = "best_effort";
-    if (qos_) output.qos = read_choice(*qos_, "QoS preset", external_qos_names, problems_).value_or("");
+    if (qos_)
+      output.qos = read_choice(*qos_, "QoS preset", external_qos_names, problems_).value_or("");
     if (program_) {
       for (const Entry& word : read_list(*program_, problems_)) {
         draft_.config.program.push_back(word.value.Scalar());
@@ -283,7 +286,8 @@ class ServiceReader {
 
   void require_parameters(Position at) {
     try {
-      check_required(parameters_of(*draft_.config.info, draft_.config.method), draft_.config.parameters);
+      check_required(parameters_of(*draft_.config.info, draft_.config.method),
+                     draft_.config.parameters);
     } catch (const ParameterError& error) {
       problems_.add(at, "parameter '" + error.parameter() + "' of service '" + draft_.config.name +
                             "' " + error.what());

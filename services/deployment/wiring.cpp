@@ -148,9 +148,8 @@ void check_inputs(const ServiceConfig& service, const Index& index,
     if (found == index.end()) {
       std::vector<std::string> names;
       for (const auto& [name, unused] : index) names.push_back(name);
-      problems.add(input.position, "the input '" + input.service + "' of service '" +
-                                       service.name + "' does not exist" +
-                                       suggestion(input.service, names));
+      problems.add(input.position, "the input '" + input.service + "' of service '" + service.name +
+                                       "' does not exist" + suggestion(input.service, names));
       continue;
     }
     const ServiceConfig& writer = services[found->second];
@@ -170,7 +169,8 @@ void expand_all(ServiceConfig& observer, const std::vector<DraftService>& drafts
   std::set<std::string> seen;
   for (const DraftService& draft : drafts) {
     const ServiceConfig& other = draft.config;
-    const bool gives = other.info == nullptr || !other.outputs.empty() || !other.info->outputs.empty();
+    const bool gives =
+        other.info == nullptr || !other.outputs.empty() || !other.info->outputs.empty();
     if (other.name.empty() || other.observes_all || !gives || !seen.insert(other.name).second) {
       continue;
     }

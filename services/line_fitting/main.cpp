@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "core/fitting/fitters.hpp"
+#include "services/line_fitting/kind.hpp"
+#include "services/runtime/process/run_node.hpp"
 #include "services/topics/lines.hpp"
 #include "services/topics/segments.hpp"
-#include "services/runtime/process/run_node.hpp"
-#include "services/line_fitting/kind.hpp"
 
 using namespace quoin;
 

@@ -8,12 +8,13 @@
 namespace quoin {
 
 [[nodiscard]] inline const KindInfo& segmentation_kind() {
-  static const KindInfo kind{.name = "segmentation",
-                             .description = "splits each scan into runs of points on one straight wall",
-                             .program = "quoin-segmentation",
-                             .inputs = {{"scan", "scan"}},
-                             .outputs = {{"segments"}},
-                             .methods = Segmenters::descriptions()};
+  static const KindInfo kind{
+      .name = "segmentation",
+      .description = "splits each scan into runs of points on one straight wall",
+      .program = "quoin-segmentation",
+      .inputs = {{"scan", "scan"}},
+      .outputs = {{"segments"}},
+      .methods = Segmenters::descriptions()};
   return kind;
 }
 

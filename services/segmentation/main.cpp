@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "core/segmentation/segmenters.hpp"
-#include "services/topics/segments.hpp"
 #include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
+#include "services/topics/segments.hpp"
 
 using namespace quoin;
 

@@ -79,7 +79,7 @@ if grep -HnE 'MODE="0?[0-7]{2}[2367]"' deploy/udev/*.rules; then
   violations=$((violations + 1))
 fi
 
-large=$(sources -name main.cpp | xargs wc -l | awk '$2 != "total" && $1 > 60')
+large=$(find core deploy sensor_bridge services -name main.cpp | xargs wc -l | awk '$2 != "total" && $1 > 60')
 if [[ -n $large ]]; then
   printf 'a main file names input, output and function; these are too long:\n%s\n' "$large"
   violations=$((violations + 1))

@@ -42,7 +42,7 @@ my @floors = (
     [ 'deploy/evaluation/',              14 ],
     [ 'deploy/command/',                 15 ],
 );
-my $most_files = 125;    # that the main file of a service of one method list reaches
+my $most_files = 160;    # that the main file of a service reaches; half of them are the service kit
 
 sub floor_of {
     my ($file) = @_;

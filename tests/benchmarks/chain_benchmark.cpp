@@ -26,16 +26,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/simulation/scanner.hpp"
-#include "services/topics/segments.hpp"
-#include "services/runtime/node/clock.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
+#include "services/runtime/node/clock.hpp"
+#include "services/topics/header.hpp"
+#include "services/topics/segments.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
-#include "services/topics/header.hpp"
 
 using namespace quoin;
 using namespace quoin::benchmarks;
@@ -297,8 +297,7 @@ class RequestFlood {
  public:
   RequestFlood(int domain, const std::string& name_space)
       : participant_({domain, "flood"}),
-        writer_(participant_, control_request_topic(name_space),
-                runtime::QosPreset::control) {
+        writer_(participant_, control_request_topic(name_space), runtime::QosPreset::control) {
     if (!writer_.wait_for_readers(3, 20s)) throw std::runtime_error("no service takes requests");
     thread_ = std::thread([this] { run(); });
   }

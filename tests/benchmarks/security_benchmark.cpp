@@ -50,7 +50,8 @@ void measure(const std::string& head, std::chrono::seconds span, Cost& cost) {
   runtime::Participant participant(deployment.participant(std::string(operator_identity)));
   runtime::Reader<msg::Corners> reader(
       participant, deployment.topic("corners"),
-      runtime::output_qos(deployment.deployment().service("corners"), deployment.output("corners")));
+      runtime::output_qos(deployment.deployment().service("corners"),
+                          deployment.output("corners")));
   runtime::WaitSet wait_set;
   wait_set.add(reader);
   std::vector<tests::Process> processes;

@@ -21,9 +21,9 @@
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/reader.hpp"
+#include "services/topics/header.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/integration/harness/deployment.hpp"
-#include "services/topics/header.hpp"
 
 using namespace quoin;
 using namespace std::chrono_literals;
@@ -44,7 +44,8 @@ class Listener {
   explicit Listener(const tests::TestDeployment& deployment)
       : participant_(deployment.participant("benchmark")),
         reader_(participant_, deployment.topic("walls"),
-                runtime::output_qos(deployment.deployment().service("walls"), deployment.output("walls"))) {
+                runtime::output_qos(deployment.deployment().service("walls"),
+                                    deployment.output("walls"))) {
     wait_set_.add(reader_);
   }
 
@@ -61,7 +62,9 @@ class Listener {
   }
 
   [[nodiscard]] const runtime::ScanAccounting& accounting() const { return accounting_; }
-  [[nodiscard]] std::uint64_t last_scan() const { return topics::sequence_number(message_.header()); }
+  [[nodiscard]] std::uint64_t last_scan() const {
+    return topics::sequence_number(message_.header());
+  }
 
  private:
   runtime::Participant participant_;

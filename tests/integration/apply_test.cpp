@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/integration/harness/deployment.hpp"
 #include "services/topics/header.hpp"
+#include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
 namespace {

@@ -9,11 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/node/clock.hpp"
 #include "services/runtime/dds/writer.hpp"
+#include "services/runtime/node/clock.hpp"
+#include "services/topics/header.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/temporary_folder.hpp"
-#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {
@@ -116,7 +116,8 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
   ASSERT_TRUE(recorder.wait_for(2));
   EXPECT_EQ(topics::sequence_number(recorder.messages()[1].header()), 2U);
   EXPECT_THAT(recorder.accounting().lost_by_site(),
-              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, 1)));
+              testing::ElementsAre(
+                  testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, 1)));
   EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));
   EXPECT_EQ(status.latest("wctls").published(), 2U);
   EXPECT_EQ(status.latest("wctls").lost(), 1U);

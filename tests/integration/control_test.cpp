@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "services/runtime/dds/writer.hpp"
-#include "tests/integration/harness/deployment.hpp"
 #include "services/topics/header.hpp"
+#include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
 namespace {

@@ -6,21 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <sstream>
-
 #include <idl/Corners.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+#include <map>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "services/topics/header.hpp"
 #include "services/topics/message_json.hpp"
 #include "tests/integration/harness/deployment.hpp"
-#include "services/topics/header.hpp"
 
 namespace quoin {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <gmock/gmock.h>
 
+#include "services/runtime/dds/writer.hpp"
 #include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
-#include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/services/runtime/notify_socket.hpp"
 

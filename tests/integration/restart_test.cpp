@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/integration/harness/deployment.hpp"
 #include "services/topics/header.hpp"
+#include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
 namespace {
@@ -55,7 +55,8 @@ TEST(Restart, AKilledStageThatComesBackIsCaughtUpWithAndItsLossesAreItsOwn) {
   EXPECT_EQ(recorder.accounting().received() + recorder.accounting().lost(), published);
   EXPECT_GT(recorder.accounting().lost(), 0U);
   EXPECT_THAT(recorder.accounting().lost_by_site(),
-              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "walls"}, testing::Gt(0U))));
+              testing::ElementsAre(testing::Pair(
+                  runtime::LossSite{runtime::LossPlace::service, "walls"}, testing::Gt(0U))));
   EXPECT_EQ(recorder.accounting().duplicates(), 0U);
 }
 

@@ -12,8 +12,8 @@
 
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
-#include "tests/integration/harness/keys.hpp"
 #include "services/topics/header.hpp"
+#include "tests/integration/harness/keys.hpp"
 
 namespace quoin {
 namespace {
@@ -150,7 +150,8 @@ TEST(Security, SamplesThatAreSentAgainTogetherArrive) {
     }
     std::size_t expected = 0;
     ASSERT_TRUE(tests::eventually([&] {
-      while (link.reader.take(taken)) EXPECT_EQ(topics::sequence_number(taken.header()), expected++);
+      while (link.reader.take(taken))
+        EXPECT_EQ(topics::sequence_number(taken.header()), expected++);
       return expected == samples;
     })) << expected
         << " of " << length;
@@ -266,10 +267,10 @@ TEST(Security, TheOperatorChangesAndTheObserverLooks) {
   EXPECT_EQ(swap.wait(30s), 0) << swap.errors();
 
   runtime::Participant observer(deployment.participant("quoin-observer"));
-  EXPECT_THROW(runtime::Writer<msg::ControlRequest>(
-                   observer, control_request_topic(deployment.name_space()),
-                   runtime::QosPreset::control),
-               std::runtime_error);
+  EXPECT_THROW(
+      runtime::Writer<msg::ControlRequest>(observer, control_request_topic(deployment.name_space()),
+                                           runtime::QosPreset::control),
+      std::runtime_error);
 }
 
 TEST(Security, TheCommandMakesKeysAndNothingStartsWithoutThem) {

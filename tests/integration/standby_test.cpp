@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/integration/harness/deployment.hpp"
 #include "services/topics/header.hpp"
+#include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
 namespace {
@@ -100,13 +100,15 @@ TEST_F(Standby, TakesOverFromAKilledAndFromAHungInstanceUntilThatReturns) {
   // Each scan at most once and in order, and the others lost by the service that was replaced.
   const auto& messages = recorder_.messages();
   for (std::size_t i = 1; i < messages.size(); ++i) {
-    EXPECT_GT(topics::sequence_number(messages[i].header()), topics::sequence_number(messages[i - 1].header()));
+    EXPECT_GT(topics::sequence_number(messages[i].header()),
+              topics::sequence_number(messages[i - 1].header()));
   }
   const runtime::ScanAccounting& accounting = recorder_.accounting();
   EXPECT_EQ(accounting.duplicates(), 0U);
   EXPECT_EQ(accounting.received() + accounting.lost(), published);
   EXPECT_THAT(accounting.lost_by_site(),
-              testing::ElementsAre(testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, testing::Gt(0U))));
+              testing::ElementsAre(testing::Pair(
+                  runtime::LossSite{runtime::LossPlace::service, "wctls"}, testing::Gt(0U))));
   stop(corners, "corners");
   EXPECT_EQ(status_.latest("corners").received(), accounting.received());
   EXPECT_EQ(status_.latest("corners").lost(), 0U);

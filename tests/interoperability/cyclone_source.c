@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Publishes scans of a rectangular room with Cyclone DDS, in place of a source of Quoin.
+// Publishes scans of a rectangular room with Cyclone DDS: in place of a source of Quoin, or as a
+// program that knows only the type of its messages.
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "Scan.h"
 #include "cyclone_endpoint.h"
@@ -54,29 +58,61 @@ static void wait_for_readers(dds_entity_t writer, uint32_t count) {
   dds_delete(wait_set);
 }
 
-int main(int argc, char** argv) {
-  if (argc != 6) {
-    fprintf(stderr,
-            "usage: %s DOMAIN NAMESPACE SERVICE COUNT READERS\npublishes COUNT scans at 20 Hz as "
-            "NAMESPACE/SERVICE/scan once READERS are there\n",
-            argv[0]);
-    return 2;
-  }
-  char* service = argv[3];
-  const int32_t count = positive_number(argv[4], "the count");
-  const int32_t readers = positive_number(argv[5], "the number of readers");
-  char topic_name[256];
-  const int length = snprintf(topic_name, sizeof topic_name, "%s/%s/scan", argv[2], service);
-  if (length < 0 || (size_t)length >= sizeof topic_name) {
-    fprintf(stderr, "namespace and service are too long\n");
-    return 2;
-  }
+/// What to publish, and how.
+typedef struct Task {
+  char topic[256];
+  char* service;  // that the header names; NULL: the header is left to the readers
+  int32_t count;
+  int32_t readers;
+  int32_t rate;  // [Hz]
+  bool best_effort;
+} Task;
 
+static const char* const usage =
+    "usage: %s DOMAIN NAMESPACE SERVICE COUNT READERS\npublishes COUNT scans at 20 Hz as "
+    "NAMESPACE/SERVICE/scan once READERS are there\n"
+    "       %s DOMAIN TOPIC COUNT READERS RATE sensor|best_effort [SERVICE]\nas a topic of any name; "
+    "without SERVICE origin and trace of the headers are left empty\n";
+
+static void set_topic(Task* task, const char* name_space, const char* rest, const char* last) {
+  const int length =
+      snprintf(task->topic, sizeof task->topic, "%s%s%s", name_space, rest, last);
+  if (length >= 0 && (size_t)length < sizeof task->topic) return;
+  fprintf(stderr, "the name of the topic is too long\n");
+  exit(2);
+}
+
+static Task task_of(int argc, char** argv) {
+  Task task = {.rate = 20};
+  if (argc == 6) {
+    task.service = argv[3];
+    task.count = positive_number(argv[4], "the count");
+    task.readers = positive_number(argv[5], "the number of readers");
+    char rest[128];
+    if (snprintf(rest, sizeof rest, "/%s", argv[3]) >= (int)sizeof rest) rest[0] = '\0';
+    set_topic(&task, argv[2], rest, "/scan");
+  } else if (argc == 7 || argc == 8) {
+    set_topic(&task, argv[2], "", "");
+    task.count = positive_number(argv[3], "the count");
+    task.readers = positive_number(argv[4], "the number of readers");
+    task.rate = positive_number(argv[5], "the rate");
+    task.best_effort = strcmp(argv[6], "best_effort") == 0;
+    if (argc == 8) task.service = argv[7];
+  } else {
+    fprintf(stderr, usage, argv[0], argv[0]);
+    exit(2);
+  }
+  return task;
+}
+
+int main(int argc, char** argv) {
+  const Task task = task_of(argc, argv);
   const dds_entity_t participant = join_domain(argv[1]);
   const dds_entity_t topic =
-      made(dds_create_topic(participant, &quoin_msg_Scan_desc, topic_name, NULL, NULL), topic_name);
+      made(dds_create_topic(participant, &quoin_msg_Scan_desc, task.topic, NULL, NULL), task.topic);
   dds_qos_t* qos = quoin_qos(QOS_SENSOR);
-  const dds_entity_t writer = made(dds_create_writer(participant, topic, qos, NULL), topic_name);
+  if (task.best_effort) dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  const dds_entity_t writer = made(dds_create_writer(participant, topic, qos, NULL), task.topic);
   dds_delete_qos(qos);
 
   float bearings[rays];
@@ -84,8 +120,8 @@ int main(int argc, char** argv) {
   fill_rays(bearings, ranges);
   // The source's entry in the trace. Its incarnation tells a restarted source from the one before.
   quoin_msg_StageTrace trace = {
-      .service = service, .input = "", .method = "", .incarnation = (uint64_t)now()};
-  quoin_msg_Origin origin = {.source = service, .incarnation = trace.incarnation, .parts = 1};
+      .service = task.service, .input = "", .method = "", .incarnation = (uint64_t)now()};
+  quoin_msg_Origin origin = {.source = task.service, .incarnation = trace.incarnation, .parts = 1};
   quoin_msg_Scan scan = {
       .header = {.origins = {._maximum = 1, ._length = 1, ._buffer = &origin},
                  .frame = "laser",
@@ -97,16 +133,20 @@ int main(int argc, char** argv) {
       .bearings = {._maximum = rays, ._length = rays, ._buffer = bearings},
       .ranges = {._maximum = rays, ._length = rays, ._buffer = ranges},
   };
-  wait_for_readers(writer, (uint32_t)readers);
-  for (int32_t i = 0; i < count; ++i) {
+  if (task.service == NULL) {
+    scan.header.origins._length = 0;
+    scan.header.trace._length = 0;
+  }
+  wait_for_readers(writer, (uint32_t)task.readers);
+  for (int32_t i = 0; i < task.count; ++i) {
     scan.header.stamp = now();
-    dds_sleepfor(DDS_MSECS(50));  // the revolution
+    dds_sleepfor(DDS_SECS(1) / task.rate);  // the revolution
     origin.sequence_number = (uint64_t)i;
     trace.index = (uint64_t)i;
     trace.received = trace.published = now();
     const dds_return_t written = dds_write(writer, &scan);
     if (written != DDS_RETCODE_OK) {
-      fprintf(stderr, "cannot write to %s: %s\n", topic_name, dds_strretcode(written));
+      fprintf(stderr, "cannot write to %s: %s\n", task.topic, dds_strretcode(written));
       return 1;
     }
   }

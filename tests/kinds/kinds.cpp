@@ -18,11 +18,11 @@ namespace quoin::deploy {
 
 // Some of the shipped kinds, and those that the tests bring.
 const KindList& kinds() {
-  static const KindList all{
-      {&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(), &tests::odometer_kind(),
-       &segmentation_kind(), &line_fitting_kind(), &corner_estimation_kind(), &tests::join_kind(),
-       &tests::latest_kind(), &tests::own_rate_kind(), &tests::sink_kind(), &tests::observer_kind(),
-       &external_kind()}};
+  static const KindList all{{&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
+                             &tests::odometer_kind(), &segmentation_kind(), &line_fitting_kind(),
+                             &corner_estimation_kind(), &tests::join_kind(), &tests::latest_kind(),
+                             &tests::own_rate_kind(), &tests::sink_kind(), &tests::observer_kind(),
+                             &external_kind()}};
   return all;
 }
 

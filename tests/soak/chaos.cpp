@@ -7,8 +7,6 @@
 #include <csignal>
 #include <signal.h>
 
-#include "core/fitting/fitters.hpp"
-
 namespace quoin::soak {
 
 namespace {
@@ -21,9 +19,10 @@ Chaos::Clock::duration seconds(double time) {
 
 }  // namespace
 
-Chaos::Chaos(const tests::TestDeployment& deployment,
+Chaos::Chaos(const tests::TestDeployment& deployment, const Scenario& scenario,
              std::vector<std::filesystem::path> compositions, std::uint64_t seed)
     : deployment_(deployment),
+      scenario_(scenario),
       compositions_(std::move(compositions)),
       random_(seed),
       participant_(deployment.participant("chaos")),
@@ -137,13 +136,13 @@ void Chaos::pause_one() {
 }
 
 void Chaos::swap_one() {
-  const auto& methods = Fitters::descriptions();
+  const Swap& swap = scenario_.swaps[below(scenario_.swaps.size())];
   msg::ControlRequest request;
-  request.service(below(2) == 0 ? "second" : "steady@10");
+  request.service(swap.service);
   request.requester("chaos");
   request.request(++request_);
   request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
-  request.method(methods[below(methods.size())].name);
+  request.method(swap.method);
   requests_.write(request);
   ++counts_["swaps asked for"];
 }
@@ -157,7 +156,7 @@ std::string Chaos::nonsense() {
 void Chaos::ask_nonsense() {
   msg::ControlRequest request;
   for (int k = 0; k < 200; ++k) {
-    request.service(below(2) == 0 ? "second" : nonsense());
+    request.service(below(2) == 0 ? scenario_.swaps.front().service : nonsense());
     request.requester("chaos");
     request.request(++request_);
     request.action(below(2) == 0 ? static_cast<msg::ControlAction>(99)
@@ -182,7 +181,7 @@ void Chaos::apply_another() {
 
 void Chaos::invite() {
   visitors_.push_back(std::make_unique<Visitor>(deployment_.participant("visitor"),
-                                                deployment_.topic("second_corners"),
+                                                deployment_.topic(scenario_.visited),
                                                 Clock::now() + seconds(uniform(0.5, 5.0))));
   ++counts_["visitors"];
 }

@@ -19,6 +19,7 @@
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/soak/composition.hpp"
 
 namespace quoin::soak {
 
@@ -34,8 +35,8 @@ class Chaos {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Chaos(const tests::TestDeployment& deployment, std::vector<std::filesystem::path> compositions,
-        std::uint64_t seed);
+  Chaos(const tests::TestDeployment& deployment, const Scenario& scenario,
+        std::vector<std::filesystem::path> compositions, std::uint64_t seed);
   ~Chaos();
   Chaos(const Chaos&) = delete;
   Chaos& operator=(const Chaos&) = delete;
@@ -88,6 +89,7 @@ class Chaos {
   [[nodiscard]] std::size_t below(std::size_t count);
 
   const tests::TestDeployment& deployment_;
+  const Scenario& scenario_;
   std::vector<std::filesystem::path> compositions_;
   std::mt19937_64 random_;
   runtime::Participant participant_;

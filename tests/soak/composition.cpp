@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/soak/composition.hpp"
 
+#include "core/fitting/fitters.hpp"
+
 namespace quoin::soak {
 
-std::vector<std::string> compositions() {
+namespace {
+
+std::vector<std::string> shipped_compositions() {
   const std::string common =
       "  - {name: front, kind: simulated, parameters: {rate_hz: 20}}\n"
       "  - {name: steady, kind: line_fitting, input: walls, method: wctls, strength: 10}\n"
@@ -27,6 +31,53 @@ std::vector<std::string> compositions() {
           "  - {name: other_walls, kind: segmentation, input: front, method: split_and_merge}\n"
           "  - {name: second, kind: line_fitting, input: other_walls, method: inverse_range}\n",
   };
+}
+
+}  // namespace
+
+Scenario shipped_kinds() {
+  Scenario scenario{.tool = "quoin",
+                    .compositions = shipped_compositions(),
+                    .listened = {"steady_corners", "second_corners"},
+                    .visited = "second_corners",
+                    .spared = {"front", "walls", "steady@10", "steady_corners"}};
+  for (const MethodInfo& method : Fitters::descriptions()) {
+    for (const char* service : {"second", "steady@10"}) {
+      scenario.swaps.push_back({service, method.name});
+    }
+  }
+  return scenario;
+}
+
+Scenario test_kinds() {
+  const std::string common =
+      "  - {name: front, kind: simulated, parameters: {rate_hz: 20, points: 360}}\n"
+      "  - {name: odo, kind: test_odometer, parameters: {rate_hz: 15}}\n"
+      "  - {name: far_map, kind: test_own_rate, input: newest, parameters: {every: 7}}\n"
+      "  - {name: sink, kind: test_sink, input: map}\n"
+      "  - {name: tape, kind: test_observer, inputs: all}\n";
+  const auto rest = [](const std::string& qos, const std::string& partner) {
+    return "  - {name: walls, kind: segmentation," + qos + " input: front}\n" +
+           "  - {name: lines, kind: line_fitting," + qos + " input: walls}\n" +
+           "  - {name: corners, kind: corner_estimation," + qos + " input: lines}\n" +
+           "  - {name: pose, kind: test_join," + qos + " inputs: {lines: lines, scan: " + partner +
+           "}}\n" + "  - {name: moved, kind: test_join," + qos +
+           " inputs: {lines: odo, scan: front}}\n" + "  - {name: newest, kind: test_latest," + qos +
+           " inputs: {scan: odo, corners: corners}}\n" + "  - {name: map, kind: test_own_rate," +
+           qos + " input: corners, parameters: {every: 5}}\n";
+  };
+  return {.tool = "quoin_test_tool",
+          .compositions = {common + rest("", "odo"), common + rest(" qos: lossless,", "odo"),
+                           common + rest("", "front")},
+          .listened = {"far_map", "newest"},
+          .visited = "newest",
+          .swaps = {{"map", "count"},
+                    {"map", "recount"},
+                    {"map", "count_otherwise"},
+                    {"far_map", "recount"},
+                    {"lines", "utls"},
+                    {"lines", "wctls"}},
+          .spared = {"front", "odo", "walls", "lines", "corners", "newest"}};
 }
 
 }  // namespace quoin::soak

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "services/deployment/graph.hpp"
 #include "tests/integration/harness/leftovers.hpp"
 #include "tests/soak/chaos.hpp"
 #include "tests/soak/composition.hpp"
@@ -24,11 +25,10 @@ using std::chrono::steady_clock;
 
 namespace {
 
-// What may die up to this part of the run lives on from then, and its memory counts from the
+// From this part of the run on nothing is killed that is spared, and its memory counts from the
 // second: before, the pools of Fast DDS grow to the most participants that were ever there at once.
 constexpr double last_kills = 0.3;
 constexpr double begin_of_memory = 0.6;
-const std::set<std::string> spared{"front", "walls", "steady@10", "steady_corners"};
 
 /// Of the resident memory of those and quoin up together. In the first minutes the pools reach a
 /// new height now and then.
@@ -69,9 +69,10 @@ class Verdict {
   std::vector<std::string> faults_;
 };
 
-std::vector<std::filesystem::path> write_compositions(const tests::TestDeployment& deployment) {
+std::vector<std::filesystem::path> write_compositions(const tests::TestDeployment& deployment,
+                                                      const soak::Scenario& scenario) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& services : soak::compositions()) {
+  for (const std::string& services : scenario.compositions) {
     files.push_back(deployment.directory().write(
         "composition_" + std::to_string(files.size()) + ".yaml",
         "version: 1\nnamespace: " + deployment.deployment().name_space + "\ndomain: " +
@@ -80,18 +81,24 @@ std::vector<std::filesystem::path> write_compositions(const tests::TestDeploymen
   return files;
 }
 
-ordered_json judge_scans(const ordered_json& summary, Verdict& verdict) {
+/// Of the ends that all compositions have.
+ordered_json judge_scans(const ordered_json& summary, const Deployment& deployment,
+                         Verdict& verdict) {
   ordered_json result = ordered_json::object();
-  const auto published = summary.at("scans_published").get<std::uint64_t>();
-  result["published"] = published;
-  for (const auto& [name, corners] : summary.at("corners").items()) {
-    const auto delivered = corners.at("scans_delivered").get<std::uint64_t>();
-    const auto lost = corners.at("scans_lost").get<std::uint64_t>();
-    result[name] = {{"delivered", delivered},
-                    {"lost_by_stage", corners.at("lost_by_stage")},
-                    {"lost_on_link", corners.at("lost_on_link")},
-                    {"lost_at_start", corners.at("lost_at_start")},
-                    {"lost_at_end", corners.at("lost_at_end")}};
+  const Graph graph(deployment);
+  for (const Connection& end : graph.ends()) {
+    const std::string& name = end.writer->name;
+    const Connection source = graph.path_to(*end.writer, end.output).front();
+    const auto published = summary.at("services")
+                               .at(label(*source.writer))
+                               .at("numbered")
+                               .at(source.output.type)
+                               .get<std::uint64_t>();
+    const ordered_json& seen = summary.at("ends").at(name);
+    const auto delivered = seen.at("scans_delivered").get<std::uint64_t>();
+    const auto lost = seen.at("scans_lost").get<std::uint64_t>();
+    result[name] = seen;
+    result[name]["published"] = published;
     verdict.require(delivered > 0, name + " delivered nothing");
     verdict.require(delivered + lost == published,
                     name + ": " + std::to_string(delivered) + " scans delivered and " +
@@ -137,19 +144,21 @@ struct Options {
   double minutes = 3.0;
   std::uint64_t seed = 0;
   bool verbose = false;
+  bool kinds = false;
 };
 
 ordered_json run(const Options& options, Verdict& verdict) {
   const auto shared_memory = tests::shared_memory_files();
-  const tests::TestDeployment deployment(soak::compositions().front());
+  const soak::Scenario scenario = options.kinds ? soak::test_kinds() : soak::shipped_kinds();
+  const tests::TestDeployment deployment(scenario.compositions.front(), "", scenario.tool);
   tests::Process up = deployment.quoin({"up", "FILE", "--json"});
   soak::Memory memory;
   ordered_json report{{"minutes", options.minutes}, {"seed", options.seed}};
   {
     runtime::Participant participant(deployment.participant("listener"));
-    Listener steady(participant, deployment, "steady_corners");
-    Listener second(participant, deployment, "second_corners");
-    soak::Chaos chaos(deployment, write_compositions(deployment), options.seed);
+    Listener first(participant, deployment, scenario.listened[0]);
+    Listener second(participant, deployment, scenario.listened[1]);
+    soak::Chaos chaos(deployment, scenario, write_compositions(deployment, scenario), options.seed);
     const auto begin = steady_clock::now();
     const auto end = begin + std::chrono::duration_cast<steady_clock::duration>(
                                  std::chrono::duration<double>(60.0 * options.minutes));
@@ -160,27 +169,27 @@ ordered_json run(const Options& options, Verdict& verdict) {
     auto next_line = begin + 10s;
     std::map<pid_t, std::string> watched{{up.pid(), "quoin up"}};
     while (steady_clock::now() < end && interrupted == 0 && !up.wait(0ms)) {
-      steady.poll();
+      first.poll();
       second.poll();
       chaos.step();
       const auto now = steady_clock::now();
       if (!sparing && now >= spare_from) {
         sparing = true;
-        chaos.spare(spared);
+        chaos.spare(scenario.spared);
       }
       if (!counting && now >= memory_from) {
         counting = true;
         memory.begin();
       }
       for (const auto& [process, service] : chaos.processes()) {
-        if (spared.contains(service)) watched[process] = service;
+        if (scenario.spared.contains(service)) watched[process] = service;
       }
       memory.sample(watched);
       if (now >= next_line) {
         next_line += 10s;
         std::cerr << std::chrono::duration_cast<std::chrono::seconds>(now - begin).count()
-                  << " s: " << steady.accounting().received() << " scans delivered, "
-                  << steady.accounting().lost() << " lost;";
+                  << " s: " << first.accounting().received() << " scans delivered, "
+                  << first.accounting().lost() << " lost;";
         for (const auto& [what, count] : chaos.counts())
           std::cerr << ' ' << count << ' ' << what << ',';
         std::cerr << '\n';
@@ -194,7 +203,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
     report["exit_code"] = up.wait(60s).value_or(-1);
     verdict.require(report["exit_code"] == 0, "quoin up ended with another exit code than 0");
     report["done"] = chaos.counts();
-    for (const Listener* listener : {&steady, &second}) {
+    for (const Listener* listener : {&first, &second}) {
       report["listener"][listener->service()] = {{"received", listener->accounting().received()},
                                                  {"lost", listener->accounting().lost()},
                                                  {"repeated", listener->accounting().duplicates()}};
@@ -202,7 +211,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
   }
   const ordered_json summary = ordered_json::parse(up.output(), nullptr, false);
   verdict.require(summary.is_object(), "quoin up gave no summary");
-  if (summary.is_object()) report["scans"] = judge_scans(summary, verdict);
+  if (summary.is_object()) report["scans"] = judge_scans(summary, deployment.deployment(), verdict);
   report["memory"] = judge_memory(memory, options.minutes, verdict);
   report["left"] = judge_leftovers(deployment, shared_memory, verdict);
   if (options.verbose || !verdict.faults().empty()) std::cerr << up.errors();
@@ -217,6 +226,7 @@ int main(int argc, char** argv) {
   options.seed = std::random_device{}();
   app.add_option("--minutes", options.minutes, "How long")->capture_default_str();
   app.add_option("--seed", options.seed, "Of the schedule; random unless given, and printed");
+  app.add_flag("--kinds", options.kinds, "With the kinds of tests/kinds, beside shipped ones");
   app.add_flag("--verbose", options.verbose, "Print the log of the deployment");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { interrupted = 1; });

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "core/evaluation/scene.hpp"
 #include "core/extraction/extraction.hpp"
 #include "core/statistics/order_statistics.hpp"
-#include "core/evaluation/scene.hpp"
 
 namespace quoin {
 namespace {

@@ -84,7 +84,8 @@ std::string ports_text(const KindInfo& kind) {
   for (const InputPort& port : kind.inputs) {
     inputs += (inputs.empty() ? "" : ", ") + port.type;
     if (kind.inputs.size() == 1) continue;
-    inputs += " (" + port.name + ": " + join_name(port.join) + (port.required ? ")" : ", optional)");
+    inputs +=
+        " (" + port.name + ": " + join_name(port.join) + (port.required ? ")" : ", optional)");
   }
   if (kind.observer) inputs = "any messages";
   return "reads " + inputs + ", publishes " + (outputs.empty() ? "nothing" : outputs);

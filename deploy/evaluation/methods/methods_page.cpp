@@ -8,10 +8,10 @@
 
 #include "core/geometry/angle.hpp"
 #include "deploy/evaluation/drawing/svg.hpp"
+#include "deploy/evaluation/methods/description.hpp"
 #include "deploy/evaluation/methods/figure_tables.hpp"
 #include "deploy/evaluation/methods/markdown.hpp"
 #include "deploy/evaluation/methods/parameter_text.hpp"
-#include "deploy/evaluation/methods/description.hpp"
 
 namespace quoin::deploy {
 
@@ -78,9 +78,9 @@ std::string figures_of(const KindInfo& kind, const MeasuredFigures& figures) {
 
 std::string kind_text(const KindInfo& kind, const MeasuredFigures* figures) {
   const std::vector<ParameterInfo> shared = shared_parameters(kind.methods);
-  std::string text = "## " + kind.name + "\n\n" +
-                     markdown_paragraph(sentence(kind.description) + " " +
-                                        sentence(ports_text(kind)));
+  std::string text =
+      "## " + kind.name + "\n\n" +
+      markdown_paragraph(sentence(kind.description) + " " + sentence(ports_text(kind)));
   if (!shared.empty()) {
     text += markdown_paragraph("All of its methods have these parameters, and those told below:") +
             parameter_table(shared);
@@ -94,7 +94,8 @@ std::string kind_text(const KindInfo& kind, const MeasuredFigures* figures) {
 
 }  // namespace
 
-std::string methods_page(const std::vector<const KindInfo*>& kinds, const MeasuredFigures* figures) {
+std::string methods_page(const std::vector<const KindInfo*>& kinds,
+                         const MeasuredFigures* figures) {
   std::string text =
       "# Methods\n\n" +
       markdown_paragraph(

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/fault.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/emulated_device.hpp"
 #include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
 #include "sensor_bridge/rplidar/emulator/garbler.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

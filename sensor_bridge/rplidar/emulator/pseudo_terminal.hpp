@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

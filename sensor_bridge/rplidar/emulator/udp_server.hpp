@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sensor_bridge/transport/file_descriptor.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
 #include "sensor_bridge/rplidar/emulator/socket_address.hpp"
+#include "sensor_bridge/transport/file_descriptor.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

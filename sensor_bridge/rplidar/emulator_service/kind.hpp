@@ -8,11 +8,13 @@
 namespace quoin::sensor_bridge::rplidar {
 
 [[nodiscard]] inline const KindInfo& rplidar_emulator_kind() {
-  static const KindInfo kind{.name = "rplidar_emulator",
-                             .description = "an RPLIDAR S1 without hardware, for a service of kind rplidar or any other client",
-                             .program = "quoin-rplidar-emulator-service",
-                             .exclusive = true,
-                             .parameters = describe_parameters<EmulatorSettings>()};
+  static const KindInfo kind{
+      .name = "rplidar_emulator",
+      .description =
+          "an RPLIDAR S1 without hardware, for a service of kind rplidar or any other client",
+      .program = "quoin-rplidar-emulator-service",
+      .exclusive = true,
+      .parameters = describe_parameters<EmulatorSettings>()};
   return kind;
 }
 

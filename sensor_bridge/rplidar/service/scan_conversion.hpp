@@ -4,9 +4,9 @@
 
 #include <idl/Scan.h>
 
-#include "sensor_bridge/rplidar/service/parameters.hpp"
 #include "sensor_bridge/rplidar/protocol/configuration.hpp"
 #include "sensor_bridge/rplidar/protocol/revolution.hpp"
+#include "sensor_bridge/rplidar/service/parameters.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 

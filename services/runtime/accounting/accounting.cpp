@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/accounting.hpp"
-#include "services/topics/header.hpp"
 
 #include <algorithm>
+
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 
@@ -94,7 +95,8 @@ std::vector<Loss> ScanAccounting::losses_before(const msg::Header& header, bool 
   }
   const auto add = [&](std::uint64_t had, std::uint64_t made_of_it, LossSite site) {
     if (made_of_it >= had) return;
-    losses.push_back({first, topics::sequence_number(header) - 1, had - made_of_it, std::move(site)});
+    losses.push_back(
+        {first, topics::sequence_number(header) - 1, had - made_of_it, std::move(site)});
   };
   // Scans that were taken but never written are the source's own loss.
   add(topics::sequence_number(header) - first, made[0].count,
@@ -211,7 +213,8 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
   } else if (topics::source(header) == previous_->source && !follows(header)) {
     return_to(header);
     change = change_to(header);
-    if ((change == Change::go_on && topics::sequence_number(header) <= previous_->sequence_number) ||
+    if ((change == Change::go_on &&
+         topics::sequence_number(header) <= previous_->sequence_number) ||
         repeats_earlier_source(header)) {
       ++duplicates_;
       last_was_duplicate_ = true;

@@ -83,7 +83,7 @@ void become_server(dds::WireProtocolConfigQos& wire, const ParticipantConfig& co
   const ServerAddress& server = config.network.servers.at(*config.server);
   if (std::find(addresses.begin(), addresses.end(), server.address) == addresses.end()) {
     throw DeploymentError({"the discovery server " + server.address +
-                                   " is at no address of this host's interfaces in 'network'"});
+                           " is at no address of this host's interfaces in 'network'"});
   }
   wire.prefix = server_prefix(server, config.domain);
   wire.builtin.metatrafficUnicastLocatorList.clear();

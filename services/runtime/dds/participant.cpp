@@ -13,8 +13,8 @@
 #include "services/keys/key_check.hpp"
 #include "services/runtime/dds/endpoints_impl.hpp"
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/participant_impl.hpp"
+#include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/security.hpp"
 
 namespace quoin::runtime {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
 #include "services/runtime/node/ports.hpp"
-#include "services/deployment/deployment.hpp"
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/header.hpp"
 #include "services/topics/topic_types.hpp"
@@ -29,11 +29,12 @@ class StrangerNumbers {
   /// Leaves a header as it is that has what accounting needs.
   void number(const ReaderBase::Sample& sample, msg::Header& header) const {
     if (!header.trace().empty() && !header.origins().empty()) return;
-    // Another writer counts from 1 again, as a process does that was started again. All readers of a
-    // writer must give it the same incarnation, whenever they begin; as a time, which it is of our
-    // own services, it is so long ago that nobody concludes from it when the writer began.
+    // Another writer counts from 1 again, as a process does that was started again. All readers of
+    // a writer must give it the same incarnation, whenever they begin; as a time, which it is of
+    // our own services, it is so long ago that nobody concludes from it when the writer began.
     const std::uint64_t incarnation = 1 + (sample.writer & 0xFFFF'FFFFU);
-    const std::uint64_t index = sample.sequence_number - std::min<std::uint64_t>(1, sample.sequence_number);
+    const std::uint64_t index =
+        sample.sequence_number - std::min<std::uint64_t>(1, sample.sequence_number);
     topics::set_origin(header, service_, incarnation, index);
     header.trace().resize(1);
     msg::StageTrace& trace = header.trace().front();
@@ -94,7 +95,7 @@ class ReaderInput final : public Input {
 
 /// What an observer gets: a message of any type as it was sent, and its header.
 struct ObservedMessage {
-  std::string type;   ///< of the table of topic types
+  std::string type;  ///< of the table of topic types
   std::string topic;
   topics::RawMessage raw;
   msg::Header header;

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "services/runtime/dds/reader.hpp"
-#include "services/runtime/process/service.hpp"
 #include "services/runtime/dds/writer.hpp"
+#include "services/runtime/process/service.hpp"
 
 namespace quoin::runtime {
 

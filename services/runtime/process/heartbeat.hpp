@@ -10,15 +10,15 @@
 #include <thread>
 
 #include "services/runtime/dds/writer.hpp"
-#include "services/runtime/process/memory.hpp"
 #include "services/runtime/node/service_record.hpp"
+#include "services/runtime/process/memory.hpp"
 #include "services/runtime/process/supervisor_link.hpp"
 
 namespace quoin::runtime {
 
-/// Publishes the record of a service once a second and at each change of state, from a thread of its
-/// own so that the data path never waits for it. Tells the service manager that started the process,
-/// too: ready when active.
+/// Publishes the record of a service once a second and at each change of state, from a thread of
+/// its own so that the data path never waits for it. Tells the service manager that started the
+/// process, too: ready when active.
 class Heartbeat {
  public:
   Heartbeat(Participant& participant, std::string_view name_space, ServiceRecord& record);

@@ -45,8 +45,8 @@ class NodeProcess {
 
   int run() {
     set_endpoint_report();
-    // The inputs are opened once the outputs have their readers: so a whole deployment comes up from
-    // its end to its sources, and the first scan finds everybody listening.
+    // The inputs are opened once the outputs have their readers: so a whole deployment comes up
+    // from its end to its sources, and the first scan finds everybody listening.
     std::vector<const Output*> waiting;
     for (const Node::OutputPart& part : node_.outputs()) waiting.push_back(part.output.get());
     if (service_.wait_for_readers(waiting, node_.succession())) work();
@@ -86,13 +86,13 @@ class NodeProcess {
 
   [[nodiscard]] Node::InputPart observed(const Connection& connection) {
     const OutputConfig& output = connection.output;
-    auto input = std::make_unique<ObservedInput>(service_.participant, output,
-                                                 observer_qos(*connection.writer, output),
-                                                 connection.writer->external()
-                                                     ? connection.writer->name
-                                                     : "");
+    auto input = std::make_unique<ObservedInput>(
+        service_.participant, output, observer_qos(*connection.writer, output),
+        connection.writer->external() ? connection.writer->name : "");
     wait_set_.add(input->reader());
-    return {{.name = output.topic, .type = output.type}, connection.writer->name, output.topic,
+    return {{.name = output.topic, .type = output.type},
+            connection.writer->name,
+            output.topic,
             std::move(input)};
   }
 
@@ -139,8 +139,8 @@ class NodeProcess {
   }
 
   void turn() {
-    // An instance that stands by, or is stood by for, tells that it lives; from this thread, so that
-    // one whose method hangs is replaced.
+    // An instance that stands by, or is stood by for, tells that it lives; from this thread, so
+    // that one whose method hangs is replaced.
     milliseconds timeout = longest_wait;
     if (service_.config.strength) timeout = service_.config.lease / 4;
     if (const auto due = node_.due()) {
@@ -164,26 +164,35 @@ class NodeProcess {
   WaitSet wait_set_;
 };
 
-/// What `quoin apply` says of a method's state is what the method says itself.
-void check_state_form(const KindInfo& kind, const std::string& method, const std::string& form) {
-  for (const MethodInfo& info : kind.methods) {
-    if (info.name != method || info.state == form) continue;
-    throw std::logic_error("method " + method + " of kind " + kind.name + " keeps the state '" +
-                           form + "', but is described to keep '" + info.state + "'");
-  }
+/// Methods that fit what the kind says of itself, which `quoin check` and `quoin apply` go by.
+MethodFactory checked(const KindInfo& kind, const MethodFactory& make) {
+  return [&kind, make](const std::string& name, const ParameterSettings& settings) {
+    if (kind.methods.empty()) {
+      if (!name.empty()) throw ParameterError("method", "kind " + kind.name + " has no methods");
+      check_parameters(kind.parameters, settings);
+    }
+    Method method = make(name, settings);
+    for (const MethodInfo& info : kind.methods) {
+      if (info.name != name || info.state == method.state_form) continue;
+      throw std::logic_error("method " + name + " of kind " + kind.name + " keeps the state '" +
+                             method.state_form + "', but is described to keep '" + info.state +
+                             "'");
+    }
+    return method;
+  };
 }
 
 }  // namespace
 
 int run_node(int argc, char** argv, const KindInfo& kind, const PortTypes& types,
              const MethodFactory& make) {
+  const MethodFactory factory = checked(kind, make);
   return run_service(
       argc, argv, kind,
       [&](const Deployment&, const ServiceConfig& config) {
-        const Method method = make(config.method, config.parameters);  // before DDS is touched
-        check_state_form(kind, config.method, method.state_form);
+        (void)factory(config.method, config.parameters);  // throws before DDS is touched
       },
-      [&](Service& service) { return NodeProcess(service, kind, types, make).run(); });
+      [&](Service& service) { return NodeProcess(service, kind, types, factory).run(); });
 }
 
 }  // namespace quoin::runtime

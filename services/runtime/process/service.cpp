@@ -24,15 +24,13 @@ const ServiceConfig& find_service(const Deployment& deployment, const std::strin
     if (label(service) == name) return service;
     candidates.push_back(label(service));
   }
-  throw DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " +
-                                 kind + suggestion(name, candidates)});
+  throw DeploymentError({deployment.file.string() + ": no service '" + name + "' of kind " + kind +
+                         suggestion(name, candidates)});
 }
 
 // [s] Each pair of participants has to shake hands first, which takes ten of them that start at
 // once on a busy machine many seconds.
-double default_patience(const Deployment& deployment) {
-  return deployment.security ? 30.0 : 10.0;
-}
+double default_patience(const Deployment& deployment) { return deployment.security ? 30.0 : 10.0; }
 
 /// An observer announces what it observes: who begins to write waits for it.
 ParticipantConfig participant_of(const Deployment& deployment, const ServiceConfig& config,
@@ -82,8 +80,7 @@ bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
                    "waiting for " + std::to_string(expected_readers) + " readers");
   const auto deadline =
       steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(patience);
-  while (matched() < expected_readers || !participant.discovery_settled() ||
-         !observers().empty()) {
+  while (matched() < expected_readers || !participant.discovery_settled() || !observers().empty()) {
     if (!stop.wait_until(steady_clock::now() + milliseconds(5))) return false;
     if (!succession.held() && steady_clock::now() > deadline) {
       std::string names;

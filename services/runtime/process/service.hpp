@@ -12,9 +12,9 @@
 #include "services/deployment/graph.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/node/delivery.hpp"
+#include "services/runtime/node/service_record.hpp"
 #include "services/runtime/node/succession.hpp"
 #include "services/runtime/process/heartbeat.hpp"
-#include "services/runtime/node/service_record.hpp"
 #include "services/runtime/process/stop_signal.hpp"
 
 namespace quoin::runtime {
@@ -43,8 +43,8 @@ struct Service {
 
   /// Waits until the outputs have the expected readers, and those observers that have announced
   /// themselves. Goes on without them when its patience has ended, since a reader that crashed must
-  /// not hold up the others, but not when held: the other process is still at work. False when asked
-  /// to stop meanwhile.
+  /// not hold up the others, but not when held: the other process is still at work. False when
+  /// asked to stop meanwhile.
   [[nodiscard]] bool wait_for_readers(const std::vector<const Output*>& outputs,
                                       const Succession& succession);
 };

@@ -53,10 +53,9 @@ template <class Context>
   try {
     return open(config, deployment.file.parent_path());
   } catch (const std::exception& error) {
-    throw DeploymentError({deployment.file.string() + ":" +
-                                   std::to_string(config.position.line) + ":" +
-                                   std::to_string(config.position.column) + ": service '" +
-                                   config.name + "': " + error.what()});
+    throw DeploymentError({deployment.file.string() + ":" + std::to_string(config.position.line) +
+                           ":" + std::to_string(config.position.column) + ": service '" +
+                           config.name + "': " + error.what()});
   }
 }
 

@@ -8,8 +8,8 @@
 #include <spdlog/spdlog.h>
 
 #include "services/runtime/node/clock.hpp"
-#include "services/runtime/process/control.hpp"
 #include "services/runtime/node/node.hpp"
+#include "services/runtime/process/control.hpp"
 #include "services/runtime/process/service_activity.hpp"
 #include "services/topics/header.hpp"
 
@@ -96,7 +96,7 @@ class PublishingSource final : public ServiceActivity<Source> {
 
 /// The numbers to begin with; nothing when asked to stop before there is a scan to publish.
 std::optional<Positions> wait_for_begin(Service& service, const Outputs& outputs,
-                                            Succession& succession) {
+                                        Succession& succession) {
   std::vector<const Output*> waiting;
   for (const Node::OutputPart& part : outputs) waiting.push_back(part.output.get());
   if (!service.wait_for_readers(waiting, succession)) return std::nullopt;

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 // From scans to corners, against the true corners of the built-in worlds.
-#include "core/extraction/extraction.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/corners/corner_finders.hpp"
+#include "core/extraction/extraction.hpp"
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "core/simulation/scanner.hpp"

@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "deploy/kinds/kinds.hpp"
 #include "deploy/diagnostics/host_checks.hpp"
 #include "deploy/diagnostics/network_checks.hpp"
 #include "deploy/diagnostics/shared_memory.hpp"
+#include "deploy/kinds/kinds.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {

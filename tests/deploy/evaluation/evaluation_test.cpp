@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/corners/corner_finders.hpp"
-#include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/evaluation/loop_coverage.hpp"
+#include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/evaluation/papers/pca_paper.hpp"
 #include "core/evaluation/papers/published_figures.hpp"
-#include "core/evaluation/scan_statistics.hpp"
 #include "core/evaluation/papers/wctls_paper.hpp"
+#include "core/evaluation/scan_statistics.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/jobs.hpp"
 #include "deploy/evaluation/progress_display.hpp"

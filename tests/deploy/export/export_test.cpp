@@ -13,8 +13,8 @@
 #include "deploy/export/systemd.hpp"
 #include "deploy/export/systemd_text.hpp"
 #include "deploy/export/visibility.hpp"
-#include "tests/temporary_folder.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin::deploy {
 namespace {

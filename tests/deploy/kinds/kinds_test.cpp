@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/kinds/kinds.hpp"
-#include "services/topics/topic_types.hpp"
 
 #include <set>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
+
+#include "services/topics/topic_types.hpp"
 
 namespace quoin {
 namespace {
@@ -67,7 +68,8 @@ TEST(Kinds, KnowTheMethods) {
   EXPECT_THAT(names_of(deploy::find_kind("segmentation")->methods), testing::Contains("iepf"));
   EXPECT_THAT(names_of(deploy::find_kind("line_fitting")->methods),
               testing::IsSupersetOf({"utls", "wtls", "wctls"}));
-  EXPECT_THAT(names_of(deploy::find_kind("corner_estimation")->methods), testing::Contains("adjacent"));
+  EXPECT_THAT(names_of(deploy::find_kind("corner_estimation")->methods),
+              testing::Contains("adjacent"));
   EXPECT_THAT(deploy::find_kind("simulated")->methods, testing::IsEmpty());
 }
 

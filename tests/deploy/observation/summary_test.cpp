@@ -29,7 +29,8 @@ DeploymentFigures figures() {
   walls.report.processing_p99 = 61e-6;
   walls.report.resident_memory = 18792448;
   figures.services.push_back(walls);
-  EndFigures end{.name = "corners", .type = "corners", .scans_expected = 205, .scans_delivered = 198};
+  EndFigures end{
+      .name = "corners", .type = "corners", .scans_expected = 205, .scans_delivered = 198};
   end.lost = {{{"walls", 2}, {"link", 1}}, 1, 2, 1};
   end.latency_p50 = 0.0012;
   end.latency_p99 = 0.0034;

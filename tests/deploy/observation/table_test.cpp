@@ -34,7 +34,8 @@ DeploymentFigures figures() {
 }
 
 EndFigures corners() {
-  EndFigures end{.name = "corners", .type = "corners", .scans_expected = 122, .scans_delivered = 121};
+  EndFigures end{
+      .name = "corners", .type = "corners", .scans_expected = 122, .scans_delivered = 121};
   end.lost.by_service["walls"] = 1;
   end.latency_p50 = 0.0012;
   end.latency_p99 = 0.0034;

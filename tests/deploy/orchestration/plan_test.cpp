@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/orchestration/plan.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 #include <gmock/gmock.h>
+
+#include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
 namespace {

@@ -7,8 +7,10 @@
 
 namespace quoin::tests {
 
-TestDeployment::TestDeployment(const std::string& services, const std::string& head)
-    : head_("version: 1\nnamespace: " + test_namespace() +
+TestDeployment::TestDeployment(const std::string& services, const std::string& head,
+                               std::string tool)
+    : tool_(std::move(tool)),
+      head_("version: 1\nnamespace: " + test_namespace() +
             "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
       file_(write("deployment.yaml", services)),
       deployment_(deploy::load_deployment(file_)) {}
@@ -30,7 +32,7 @@ Process TestDeployment::quoin(std::vector<std::string> arguments) const {
   for (std::string& argument : arguments) {
     if (argument == "FILE") argument = file_.string();
   }
-  return Process("quoin", arguments, directory_.path());
+  return Process(tool_, arguments, directory_.path());
 }
 
 StatusRecorder::StatusRecorder(runtime::Participant& participant, const TestDeployment& deployment)

@@ -22,8 +22,10 @@ namespace quoin::tests {
 /// A deployment file in a folder of its own, on a domain and namespace of its own.
 class TestDeployment {
  public:
-  /// `services`: the text behind "services:", two spaces in. `head`: more lines before it.
-  explicit TestDeployment(const std::string& services, const std::string& head = "");
+  /// `services`: the text behind "services:", two spaces in. `head`: more lines before it. `tool`:
+  /// the program that knows their kinds.
+  explicit TestDeployment(const std::string& services, const std::string& head = "",
+                          std::string tool = "quoin");
 
   /// Another deployment file for the same domain and namespace, in the same folder.
   [[nodiscard]] std::filesystem::path write(const std::string& name,
@@ -45,11 +47,12 @@ class TestDeployment {
 
   /// Starts the process of one service; `observers` readers of this test are waited for.
   [[nodiscard]] Process start(const std::string& service, int observers = 0) const;
-  /// `quoin` with arguments; "FILE" stands for the deployment file.
+  /// The tool with arguments; "FILE" stands for the deployment file.
   [[nodiscard]] Process quoin(std::vector<std::string> arguments) const;
 
  private:
   TemporaryFolder directory_;
+  std::string tool_;
   std::string head_;
   std::filesystem::path file_;
   Deployment deployment_;
@@ -62,7 +65,8 @@ class Recorder {
   Recorder(runtime::Participant& participant, const TestDeployment& deployment,
            const std::string& service)
       : reader_(participant, deployment.topic(service),
-                runtime::output_qos(deployment.deployment().service(service), deployment.output(service))) {}
+                runtime::output_qos(deployment.deployment().service(service),
+                                    deployment.output(service))) {}
 
   /// Takes what is there; returns the number of messages so far.
   std::size_t poll() {

@@ -36,5 +36,7 @@ int main(int argc, char** argv) {
   return runtime::run_node(
       argc, argv, tests::join_kind(),
       runtime::port_types(runtime::Reads<msg::Lines, msg::Scan>(), runtime::Writes<msg::Lines>()),
-      [](const std::string&, const ParameterSettings&) { return runtime::Method{.handle = handle}; });
+      [](const std::string&, const ParameterSettings&) {
+        return runtime::Method{.handle = handle};
+      });
 }

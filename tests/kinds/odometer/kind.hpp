@@ -21,8 +21,8 @@ struct OdometerParameters {
   }
 };
 
-/// Stands for a base that measures how it moves beside its LiDAR: lines come twice as often as scans,
-/// and a quarter of a revolution beside their stamps.
+/// Stands for a base that measures how it moves beside its LiDAR: lines come twice as often as
+/// scans, and a quarter of a revolution beside their stamps.
 [[nodiscard]] inline const KindInfo& odometer_kind() {
   static const KindInfo kind{.name = "test_odometer",
                              .description = "scans, and lines at a rate of their own",

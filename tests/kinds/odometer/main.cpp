@@ -4,8 +4,8 @@
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 
-#include "services/runtime/process/source.hpp"
 #include "services/runtime/node/clock.hpp"
+#include "services/runtime/process/source.hpp"
 #include "tests/kinds/odometer/kind.hpp"
 
 using namespace quoin;

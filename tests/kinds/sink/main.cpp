@@ -20,7 +20,7 @@ runtime::Method make(const std::string&, const ParameterSettings&) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runtime::run_node(
-      argc, argv, tests::sink_kind(),
-      runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<>()), make);
+  return runtime::run_node(argc, argv, tests::sink_kind(),
+                           runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<>()),
+                           make);
 }

@@ -12,8 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
+#include "sensor_bridge/replay/playback.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include "deploy/kinds/kinds.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/graph.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <gmock/gmock.h>
 
-#include "services/deployment/deployment.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin {
 namespace {

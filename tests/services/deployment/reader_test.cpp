@@ -7,10 +7,10 @@
 
 #include <gmock/gmock.h>
 
+#include "deploy/kinds/kinds.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/graph.hpp"
 #include "tests/temporary_folder.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {
@@ -62,7 +62,7 @@ services:
   - {name: walls, kind: segmentation, input: front, host: compute, strength: 1}
   - {name: walls, kind: segmentation, input: front, host: base-2, strength: 20}
 )",
-                                                 "/etc/robot.yaml");
+                                                         "/etc/robot.yaml");
   EXPECT_THAT(deployment.network.interfaces, ElementsAre("eth0", "10.7.0.0/24"));
   EXPECT_EQ(deployment.network.discovery, Discovery::server);
   EXPECT_THAT(deployment.network.servers,
@@ -136,7 +136,7 @@ services:
   - {name: walls, kind: segmentation, input: front, host: compute}
   - {name: rear, kind: simulated, host: lidar}
 )",
-                                        "robot.yaml")),
+                                                "robot.yaml")),
               ElementsAre("lidar", "compute"));
 }
 
@@ -163,7 +163,7 @@ services:
       seed: "3"
   - {name: walls, kind: segmentation, input: front, method: iepf}
 )",
-                                                 "robot.yaml");
+                                                         "robot.yaml");
   EXPECT_EQ(deployment.name_space, "fleet/robot_1");
   EXPECT_EQ(deployment.domain, 232);
   const ServiceConfig& front = deployment.service("front");

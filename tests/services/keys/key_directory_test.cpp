@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "deploy/kinds/kinds.hpp"
 #include "services/keys/documents.hpp"
 #include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 #include "tests/temporary_folder.hpp"
-#include "deploy/kinds/kinds.hpp"
 
 namespace quoin {
 namespace {

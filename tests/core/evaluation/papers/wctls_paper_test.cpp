@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "core/corners/corner_finders.hpp"
-#include "core/statistics/order_statistics.hpp"
 #include "core/evaluation/papers/published_figures.hpp"
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {

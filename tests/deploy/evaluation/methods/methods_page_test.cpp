@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/deploy/evaluation/methods/kind_fixtures.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "tests/deploy/evaluation/methods/kind_fixtures.hpp"
 
 namespace quoin::deploy {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/accounting.hpp"
-#include "services/topics/header.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 namespace {
@@ -92,7 +93,9 @@ TEST(ScanAccounting, NamesTheStageThatDidNotDeliver) {
     EXPECT_EQ(loss.last_sequence, 4U);
   }
   EXPECT_THAT(accounting.lost_by_site(),
-              UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1), Pair(LossSite{LossPlace::service, "wctls"}, 2), Pair(LossSite{LossPlace::link}, 1)));
+              UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1),
+                                   Pair(LossSite{LossPlace::service, "wctls"}, 2),
+                                   Pair(LossSite{LossPlace::link}, 1)));
   EXPECT_EQ(accounting.lost(), 4U);
 }
 
@@ -102,7 +105,8 @@ TEST(ScanAccounting, ScansTheSourceCouldNotWriteAreItsOwnLoss) {
   accounting.receive(pipeline.scan());
   (void)pipeline.scan(0);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "front"}, 1)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              ElementsAre(Pair(LossSite{LossPlace::service, "front"}, 1)));
 }
 
 TEST(ScanAccounting, ARestartedStageAnswersForTheScansInBetween) {
@@ -112,7 +116,8 @@ TEST(ScanAccounting, ARestartedStageAnswersForTheScansInBetween) {
   for (int i = 0; i < 5; ++i) (void)pipeline.scan(1);
   pipeline.restart(1);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 5)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 5)));
 }
 
 TEST(ScanAccounting, WhatALaterStageMadeTheRestartedOneMustHaveMadeToo) {
@@ -123,7 +128,9 @@ TEST(ScanAccounting, WhatALaterStageMadeTheRestartedOneMustHaveMadeToo) {
   (void)pipeline.scan(1);
   pipeline.restart(1);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_site(), UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1), Pair(LossSite{LossPlace::link}, 1)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              UnorderedElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 1),
+                                   Pair(LossSite{LossPlace::link}, 1)));
 }
 
 TEST(ScanAccounting, ARestartedSourceStartsAnew) {
@@ -173,7 +180,8 @@ TEST(ScanAccounting, AnInputThatIsRewiredLosesNothing) {
   EXPECT_THAT(accounting.receive(pipeline.scan()), IsEmpty());
   (void)pipeline.scan(2);
   accounting.receive(pipeline.scan());
-  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "wctls"}, 1)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              ElementsAre(Pair(LossSite{LossPlace::service, "wctls"}, 1)));
 }
 
 TEST(ScanAccounting, AnotherSensorBeginsAnew) {
@@ -220,7 +228,8 @@ TEST(ScanAccounting, AStandbyThatTakesOverAnswersForTheGapAndNoMore) {
   msg::Header first = by_instance(104, 2, 90);
   first.trace()[2].index(101);
   accounting.receive(first);
-  EXPECT_THAT(accounting.lost_by_site(), ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 3)));
+  EXPECT_THAT(accounting.lost_by_site(),
+              ElementsAre(Pair(LossSite{LossPlace::service, "walls"}, 3)));
   // The strong one returns without a gap, but not with its first result.
   msg::Header second = by_instance(105, 1050, 7);
   second.trace()[2].index(102);

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/source_ledger.hpp"
-#include "services/topics/header.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 namespace {

@@ -19,9 +19,9 @@
 #include "services/runtime/dds/qos.hpp"
 #include "services/runtime/dds/reader.hpp"
 #include "services/runtime/dds/writer.hpp"
+#include "services/topics/header.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 #include "tests/services/runtime/heap.hpp"
-#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 namespace {

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "services/runtime/node/node.hpp"
 #include "services/runtime/node/clock.hpp"
+#include "services/runtime/node/node.hpp"
 #include "services/topics/header.hpp"
 #include "tests/services/runtime/node/memory_ports.hpp"
 
