@@ -265,7 +265,7 @@ std::vector<SourceInstance> Monitor::source_instances() const {
         if (scans) {
           instance.ledger.add(incarnation, {process.first_number, process.published, process.lost});
         } else if (counts != process.outputs.end()) {
-          instance.ledger.add(incarnation, {0, counts->second.published, 0});
+          instance.ledger.add(incarnation, {0, counts->second.published, counts->second.lost});
         }
       }
       std::vector<const std::vector<runtime::SourceAccount>*> accounts;

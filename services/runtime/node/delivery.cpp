@@ -23,7 +23,7 @@ class WaitNotice {
  public:
   explicit WaitNotice(DataThread& thread) : thread_(thread), begun_(thread.now()) {}
   ~WaitNotice() {
-    if (!told_.empty()) thread_.record.set_detail("");
+    if (!told_.empty()) thread_.record.set_detail(detail_before_);
   }
   WaitNotice(const WaitNotice&) = delete;
   WaitNotice& operator=(const WaitNotice&) = delete;
@@ -34,6 +34,7 @@ class WaitNotice {
     for (std::size_t i = 0; i < silent.size(); ++i) text += (i == 0 ? ": " : ", ") + silent[i];
     if (text == told_) return;
     spdlog::warn("{}", text);
+    if (told_.empty()) detail_before_ = thread_.record.detail();
     thread_.record.set_detail(text);
     told_ = std::move(text);
   }
@@ -42,6 +43,7 @@ class WaitNotice {
   DataThread& thread_;
   const Clock::time_point begun_;
   std::string told_;
+  std::string detail_before_;
 };
 
 }  // namespace

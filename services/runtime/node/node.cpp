@@ -39,7 +39,7 @@ Node::Node(Settings settings, MethodFactory make, std::vector<OutputPart> output
       succession_(settings_.held, settings_.longest_handover),
       outputs_(std::move(outputs)),
       next_index_(outputs_.size(), 0),
-      first_number_(outputs_.size(), 0) {
+      next_number_(outputs_.size(), 0) {
   for (const OutputPart& part : outputs_) {
     thread_.record.add_output(part.topic);
     results_.push_back({part.output.get(), false});
@@ -115,7 +115,7 @@ void Node::leave() {
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     if (outputs_[i].port.rate != Rate::own_rate) continue;
-    next[output_key(outputs_[i].port.type)] = first_number_[i] + next_index_[i];
+    next[output_key(outputs_[i].port.type)] = next_number_[i];
   }
   succession_.left(next, exchange_.save());
 }
@@ -180,7 +180,7 @@ void Node::begin(const Succession::Begin& from) {
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const auto position = from.positions.find(output_key(outputs_[i].port.type));
-    if (position != from.positions.end()) first_number_[i] = position->second;
+    if (position != from.positions.end()) next_number_[i] = position->second;
   }
   thread_.record.set_state(msg::ServiceState::STATE_ACTIVE);
 }
@@ -320,6 +320,7 @@ void Node::publish(std::size_t index, const Pending& pending, std::size_t failur
     const bool written = deliver(*part.output, trace, part.lossless, thread_);
     thread_.record.count_output(i, written);
     if (written) ++next_index_[i];
+    ++next_number_[i];
     delivered = delivered && written;
     published = trace.published();
   }
@@ -341,7 +342,7 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
     out = in;
   } else {
     topics::set_origin(out, settings_.service, thread_.record.incarnation(),
-                       first_number_[output] + next_index_[output]);
+                       next_number_[output]);
     out.origins().insert(out.origins().end(), in.origins().begin(), in.origins().end());
     out.stamp(in.stamp());
     out.frame(in.frame());

@@ -120,7 +120,7 @@ class Node {
   Succession succession_;
   std::vector<OutputPart> outputs_;
   std::vector<std::uint64_t> next_index_;    // by output
-  std::vector<std::uint64_t> first_number_;  // by output, of those at their own rate
+  std::vector<std::uint64_t> next_number_;   // likewise, what could not be written counted, too
   std::vector<Work::Result> results_;        // by output
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Work::Partner> joined_;  // for the present message

@@ -64,6 +64,11 @@ void ServiceRecord::set_detail(const std::string& detail) {
   status_.detail(detail);
 }
 
+std::string ServiceRecord::detail() const {
+  const std::lock_guard lock(mutex_);
+  return status_.detail();
+}
+
 void ServiceRecord::set_method(const std::string& method) {
   const std::lock_guard lock(mutex_);
   status_.method(method);

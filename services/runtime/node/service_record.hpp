@@ -39,6 +39,7 @@ class ServiceRecord {
 
   void set_state(msg::ServiceState state, const std::string& detail = "");
   void set_detail(const std::string& detail);
+  [[nodiscard]] std::string detail() const;
   void set_method(const std::string& method);
   /// Of a source that does not begin with scan 0.
   void set_first_sequence_number(std::uint64_t number);

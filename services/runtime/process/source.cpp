@@ -57,7 +57,7 @@ class PublishingSource final : public ServiceActivity<Source> {
     for (std::size_t i = 1; i < outputs_.size(); ++i) {
       if (outputs_[i].output->type() != type) continue;
       if (service_.stop.requested()) return false;
-      if (write(i, message, header, next_number_[i], now_ns()) > 0) ++next_number_[i];
+      (void)write(i, message, header, next_number_[i]++, now_ns());
       return !service_.stop.requested();
     }
     throw std::logic_error("no output of that message type");
@@ -91,7 +91,7 @@ class PublishingSource final : public ServiceActivity<Source> {
   DataThread thread_;
   Outputs& outputs_;
   std::vector<std::uint64_t> next_index_;   // by output
-  std::vector<std::uint64_t> next_number_;  // likewise; of scans those are counted that are lost
+  std::vector<std::uint64_t> next_number_;  // likewise, what could not be written counted, too
 };
 
 /// The numbers to begin with; nothing when asked to stop before there is a scan to publish.
