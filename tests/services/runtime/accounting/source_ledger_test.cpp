@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/accounting/source_ledger.hpp"
-#include "services/topics/header.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "services/topics/header.hpp"
 
 namespace quoin::runtime {
 namespace {
@@ -37,6 +38,15 @@ TEST(SourceLedger, AProcessThatWasNeverHeardIsUnsettledWhenTheNextOneIs) {
   ledger.add(20, {0, 50, 3});
   ledger.add(30, {0, 7, 0});
   EXPECT_EQ(ledger.unsettled({account(10, 100, true), account(30, 2)}, false), 53U);
+}
+
+TEST(SourceLedger, AProcessThatWasHeldWhileTheOneBeforeWasStartedAgainIsSettledByItself) {
+  const SourceLedger ledger = ledger_of({100, 50, 7});
+  SourceAccount restarted = account(30, 7);
+  restarted.handed_over = true;
+  const std::vector<SourceAccount> accounts{account(10, 100, true), restarted, account(20, 50)};
+  EXPECT_EQ(ledger.unsettled(accounts, true), 0U);
+  EXPECT_EQ(ledger.unsettled({account(10, 90, true), restarted, account(20, 45)}, true), 15U);
 }
 
 TEST(SourceLedger, WhatTheSourceLostItselfBehindTheLastScanIsUnsettledToo) {
