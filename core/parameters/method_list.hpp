@@ -25,14 +25,16 @@ struct MethodInfo {
 
 /// The methods of one concept (segmenters, fitters, corner finders), the first being the default. A
 /// method is a class with `name`, `description`, `source`, `choose`, a nested `Parameters` struct
-/// and a constructor from it; adding one is one more name in the list.
+/// and a constructor from it; one that keeps something from message to message has `state`, too.
+/// Adding one is one more name in the list.
 ///
 /// `descriptions` uses the headers only, so that who just describes methods links none of them.
 template <class... Methods>
 struct MethodList {
   [[nodiscard]] static std::vector<MethodInfo> descriptions() {
     return {MethodInfo{Methods::name, Methods::description, Methods::source, Methods::choose,
-                       describe_parameters<typename Methods::Parameters>()}...};
+                       describe_parameters<typename Methods::Parameters>(),
+                       state_of<Methods>()}...};
   }
 
   /// The named method with `settings` applied, as a `Function` (a std::function that it can be
@@ -65,6 +67,15 @@ struct MethodList {
   }
 
  private:
+  template <class Method>
+  [[nodiscard]] static std::string state_of() {
+    if constexpr (requires { Method::state; }) {
+      return Method::state;
+    } else {
+      return "";
+    }
+  }
+
   template <class Method, class Function>
   static bool try_make(std::string_view name, const ParameterSettings& settings,
                        Function& function) {

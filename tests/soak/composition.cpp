@@ -40,6 +40,7 @@ Scenario shipped_kinds() {
                     .compositions = shipped_compositions(),
                     .listened = {"steady_corners", "second_corners"},
                     .visited = "second_corners",
+                    .swaps = {},
                     .spared = {"front", "walls", "steady@10", "steady_corners"}};
   for (const MethodInfo& method : Fitters::descriptions()) {
     for (const char* service : {"second", "steady@10"}) {

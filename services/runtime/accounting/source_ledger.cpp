@@ -3,6 +3,7 @@
 #include "services/runtime/accounting/source_ledger.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace quoin::runtime {
@@ -15,10 +16,9 @@ std::uint64_t excess(std::uint64_t value, std::uint64_t over) {
 
 }  // namespace
 
-// The processes from one that a reader heard to the next one that it heard, without that.
+// A process that a reader heard, and those after it of which it heard nothing until the next one.
 struct SourceLedger::Interval {
-  std::map<std::uint64_t, Process>::const_iterator begin;
-  std::map<std::uint64_t, Process>::const_iterator end;
+  std::vector<std::uint64_t> incarnations;
   std::uint64_t settled = 0;
   std::uint64_t offset = 0;
 };
@@ -38,15 +38,24 @@ std::vector<SourceLedger::Interval> SourceLedger::intervals(
     } else if (!ended) {
       continue;
     }
-    intervals.push_back({begin, end, accounts[i].settled, accounts[i].offset});
+    Interval& interval = intervals.emplace_back();
+    interval.settled = accounts[i].settled;
+    interval.offset = accounts[i].offset;
+    for (auto process = begin; process != end; ++process) {
+      // One that was held while this one was started again took over later, though it is older.
+      const bool heard = process != begin &&
+                         std::ranges::find(accounts, process->first, &SourceAccount::incarnation) !=
+                             accounts.end();
+      if (!heard) interval.incarnations.push_back(process->first);
+    }
   }
   return intervals;
 }
 
 std::uint64_t SourceLedger::published(const Interval& interval) const {
   std::uint64_t sum = 0;
-  for (auto process = interval.begin; process != interval.end; ++process) {
-    sum += process->second.published;
+  for (const std::uint64_t incarnation : interval.incarnations) {
+    sum += processes_.at(incarnation).published;
   }
   return sum;
 }
@@ -56,7 +65,7 @@ void SourceLedger::learn(const std::vector<const std::vector<SourceAccount>*>& r
   std::multimap<std::uint64_t, Interval> proofs;  // by the last process
   for (const std::vector<SourceAccount>* accounts : readers) {
     for (const Interval& interval : intervals(*accounts, false)) {
-      proofs.emplace(std::prev(interval.end)->first, interval);
+      proofs.emplace(interval.incarnations.back(), interval);
     }
   }
   for (const auto& [last, interval] : proofs) {
@@ -87,11 +96,11 @@ std::uint64_t SourceLedger::unsettled(const std::vector<SourceAccount>& accounts
                                       bool ended) const {
   std::uint64_t sum = 0;
   for (const Interval& interval : intervals(accounts, ended)) {
-    const Process& first = interval.begin->second;
+    const Process& first = processes_.at(interval.incarnations.front());
     sum += excess(published(interval), interval.settled) +
            excess(first.first_number + first.lost, interval.offset);
-    for (auto later = std::next(interval.begin); later != interval.end; ++later) {
-      sum += later->second.lost;
+    for (std::size_t i = 1; i < interval.incarnations.size(); ++i) {
+      sum += processes_.at(interval.incarnations[i]).lost;
     }
   }
   return sum;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <tuple>
-#include <vector>
 
 #include "core/parameters/method_list.hpp"
 
@@ -45,13 +44,5 @@ struct OtherCounter : Counter {
 };
 
 using Counters = MethodList<Counter, Recounter, OtherCounter>;
-
-[[nodiscard]] inline std::vector<MethodInfo> describe_counters() {
-  std::vector<MethodInfo> infos = Counters::descriptions();
-  for (MethodInfo& info : infos) {
-    info.state = info.name == OtherCounter::name ? OtherCounter::state : Counter::state;
-  }
-  return infos;
-}
 
 }  // namespace quoin::tests

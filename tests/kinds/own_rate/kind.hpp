@@ -14,7 +14,7 @@ namespace quoin::tests {
                              .program = "quoin-test-own-rate",
                              .inputs = {{"corners", "corners"}},
                              .outputs = {{"corners", Rate::own_rate}},
-                             .methods = describe_counters()};
+                             .methods = Counters::descriptions()};
   return kind;
 }
 

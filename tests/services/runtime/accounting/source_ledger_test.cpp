@@ -40,6 +40,15 @@ TEST(SourceLedger, AProcessThatWasNeverHeardIsUnsettledWhenTheNextOneIs) {
   EXPECT_EQ(ledger.unsettled({account(10, 100, true), account(30, 2)}, false), 53U);
 }
 
+TEST(SourceLedger, AProcessThatWasHeldWhileTheOneBeforeWasStartedAgainIsSettledByItself) {
+  const SourceLedger ledger = ledger_of({100, 50, 7});
+  SourceAccount restarted = account(30, 7);
+  restarted.handed_over = true;
+  const std::vector<SourceAccount> accounts{account(10, 100, true), restarted, account(20, 50)};
+  EXPECT_EQ(ledger.unsettled(accounts, true), 0U);
+  EXPECT_EQ(ledger.unsettled({account(10, 90, true), restarted, account(20, 45)}, true), 15U);
+}
+
 TEST(SourceLedger, WhatTheSourceLostItselfBehindTheLastScanIsUnsettledToo) {
   SourceLedger ledger;
   ledger.add(10, {5, 100, 4});
