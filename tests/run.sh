@@ -88,6 +88,7 @@ if $sanitizers; then
 fi
 finish "integration tests"
 finish "soak"
+in_background "soak of kinds with several ports" tests/soak/run.sh --minutes 3 --kinds
 
 if $sanitizers; then
   step "unit tests with sanitizers"
@@ -98,6 +99,7 @@ if $fuzzing; then
   step "fuzz targets"
   tests/fuzz/run.sh
 fi
+finish "soak of kinds with several ports"
 
 step "temporary files left behind"
 if [[ -n $(ls -A "$TMPDIR") ]]; then
