@@ -129,6 +129,12 @@ std::optional<Node::Clock::time_point> Node::due() const {
   return first;
 }
 
+bool Node::full() const {
+  const std::size_t room = succession_.held() ? most_kept : most_waiting;
+  return std::any_of(ports_.begin(), ports_.end(),
+                     [&](const auto& port) { return port->queue.size() >= room; });
+}
+
 bool Node::take_partners() {
   bool any = false;
   for (std::size_t i = 0; i < ports_.size(); ++i) {

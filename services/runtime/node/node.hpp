@@ -64,6 +64,8 @@ class Node {
   bool step();
   /// When step() has something to do though nothing more comes; nothing when it has not.
   [[nodiscard]] std::optional<Clock::time_point> due() const;
+  /// Whether it has no room for what still comes, which stays with DDS.
+  [[nodiscard]] bool full() const;
   /// Whether its successor does the work now: it handles nothing more.
   [[nodiscard]] bool has_left() const { return left_; }
   /// Handles what has been received, waiting for nothing.

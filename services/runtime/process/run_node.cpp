@@ -152,8 +152,10 @@ class NodeProcess {
     if (!active && service_.config.strength) node_.assert_liveliness();
     bool any = false;
     while (node_.step()) any = true;
-    // What has no room here stays with DDS, which goes on to say that there is something.
-    if (active && !any) (void)service_.stop.wait_until(Clock::now() + pause_when_full);
+    // What has no room stays with DDS, which goes on to say that there is something.
+    if (active && !any && node_.full()) {
+      (void)service_.stop.wait_until(Clock::now() + pause_when_full);
+    }
   }
 
   Service& service_;

@@ -282,7 +282,7 @@ TEST(Joins, AnOptionalPortThatIsNotWiredGivesNothing) {
   stage.node().open(inputs(input_part({"scan", "scan"}, "front", scans)));
   scans->push(front.next());
   stage.run();
-  EXPECT_EQ(stage.status().published(), 1U);
+  EXPECT_EQ(stage.status().received(), 1U);
   EXPECT_EQ(stage.status().lost(), 0U);
 }
 
