@@ -36,6 +36,8 @@ class ServiceReader {
       read_kind(*kind_);
     }
     read_inputs(at);
+    // Of services whose kind is not known, too: others read what they publish.
+    if (!draft_.config.external()) read_qos();
     if (draft_.config.info != nullptr) read_what_depends_on_the_kind(at);
     // A source tells that it lives by its scans alone, which may be 100 ms apart.
     if (draft_.config.inputs.empty()) draft_.config.lease *= 5;
@@ -87,6 +89,15 @@ class ServiceReader {
                                                "parameters", "qos", "restart", "host", "strength",
                                                "lease", "topic", "type", "program"}));
     }
+  }
+
+  void read_qos() {
+    if (!qos_) {
+      draft_.config.qos = qos_of_all_.value_or("");
+      return;
+    }
+    draft_.config.qos =
+        read_choice(*qos_, "QoS preset", deployment_qos_names(), problems_).value_or("");
   }
 
   /// A port that is written as `input: SERVICE`.
@@ -204,12 +215,6 @@ class ServiceReader {
       if (!entry) continue;
       problems_.add(entry->key_at, "'" + entry->key + "' belongs to kind external; kind " +
                                        draft_.config.kind + " names its topics itself");
-    }
-    if (qos_) {
-      draft_.config.qos =
-          read_choice(*qos_, "QoS preset", deployment_qos_names(), problems_).value_or("");
-    } else {
-      draft_.config.qos = qos_of_all_.value_or("");
     }
     const bool known = read_method();
     if (parameters_) {

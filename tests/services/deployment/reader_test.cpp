@@ -224,6 +224,27 @@ TEST(Deployment, FindsServicesAndReaders) {
   }
 }
 
+// A service knows its own kind only, and must read others as they write.
+TEST(Deployment, IsReadByAServiceAsByAllOthers) {
+  const std::string text = std::string("qos: lossless\n") + chain;
+  const Deployment whole = deploy::parse_deployment(text, "robot.yaml");
+  for (const ServiceConfig& service : whole.services) {
+    const Deployment own = parse_deployment(text, "robot.yaml", {{service.info}, false});
+    const ServiceConfig& config = own.service(service.name);
+    EXPECT_EQ(config.outputs, service.outputs) << service.name;
+    const auto seen = Graph(own).inputs_of(config);
+    const auto expected = Graph(whole).inputs_of(service);
+    ASSERT_EQ(seen.size(), expected.size()) << service.name;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      EXPECT_EQ(seen[i].output, expected[i].output) << service.name;
+      EXPECT_EQ(seen[i].output.qos, "lossless") << service.name;
+      EXPECT_EQ(seen[i].writer->lease, expected[i].writer->lease) << service.name;
+    }
+    EXPECT_EQ(Graph(own).expected_readers(config), Graph(whole).expected_readers(service))
+        << service.name;
+  }
+}
+
 TEST(Deployment, NamesTopics) {
   const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
   EXPECT_EQ(deployment.service("front").outputs.front().topic, "quoin/front/scan");
