@@ -246,7 +246,7 @@ TEST(Ports, ApplyReplacesEachOfThemAndTheirStateGoesOn) {
     ASSERT_TRUE(run.status().wait_for(service.name,
                                       [&](const auto& s) {
                                         return s.incarnation() != before[service.name] &&
-                                               s.published() > 10;
+                                               TestRun::handled(s) > 10;
                                       }))
         << service.name << run.log();
   }

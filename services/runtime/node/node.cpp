@@ -347,8 +347,7 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
   if (outputs_[output].port.rate == Rate::per_input) {
     out = in;
   } else {
-    topics::set_origin(out, settings_.service, thread_.record.incarnation(),
-                       next_number_[output]);
+    topics::set_origin(out, settings_.service, thread_.record.incarnation(), next_number_[output]);
     out.origins().insert(out.origins().end(), in.origins().begin(), in.origins().end());
     out.stamp(in.stamp());
     out.frame(in.frame());

@@ -121,9 +121,9 @@ class Node {
   MethodExchange exchange_;
   Succession succession_;
   std::vector<OutputPart> outputs_;
-  std::vector<std::uint64_t> next_index_;    // by output
-  std::vector<std::uint64_t> next_number_;   // likewise, what could not be written counted, too
-  std::vector<Work::Result> results_;        // by output
+  std::vector<std::uint64_t> next_index_;   // by output
+  std::vector<std::uint64_t> next_number_;  // likewise, what could not be written counted, too
+  std::vector<Work::Result> results_;       // by output
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Work::Partner> joined_;  // for the present message
   bool joins_by_time_ = false;

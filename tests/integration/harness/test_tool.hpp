@@ -56,12 +56,16 @@ class TestRun {
         "", [](const auto&) { return false; }, std::chrono::milliseconds(0));
   }
 
+  /// Messages that a service has published, or handled where it gives none.
+  [[nodiscard]] static std::uint64_t handled(const msg::ServiceStatus& status) {
+    return status.outputs().empty() ? status.received() : status.published();
+  }
   /// True once the present process of `service` has published that many, or handled them when it
   /// has no output.
   [[nodiscard]] bool has_published(const std::string& service, std::uint64_t count,
                                    std::chrono::milliseconds timeout = std::chrono::seconds(40)) {
     return status_.wait_for(
-        service, [&](const auto& status) { return status.published() >= count; }, timeout);
+        service, [&](const auto& status) { return handled(status) >= count; }, timeout);
   }
   /// The same, counted from now on and with the process that is there then.
   [[nodiscard]] bool goes_on(const std::string& service, std::uint64_t count,
@@ -71,8 +75,8 @@ class TestRun {
         service,
         [&](const auto& status) {
           const std::uint64_t begin =
-              status.incarnation() == before.incarnation() ? before.published() : 0;
-          return status.published() >= begin + count;
+              status.incarnation() == before.incarnation() ? handled(before) : 0;
+          return handled(status) >= begin + count;
         },
         timeout);
   }
