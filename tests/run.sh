@@ -88,13 +88,14 @@ if $sanitizers; then
 fi
 finish "integration tests"
 finish "soak"
-in_background "soak of kinds with several ports" tests/soak/run.sh --minutes 3 --kinds
 
 if $sanitizers; then
   step "unit tests with sanitizers"
   UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$tests_at_once"
 fi
 
+# Beside nothing that has deadlines of its own.
+in_background "soak of kinds with several ports" tests/soak/run.sh --minutes 3 --kinds
 if $fuzzing; then
   step "fuzz targets"
   tests/fuzz/run.sh
