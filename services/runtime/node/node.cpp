@@ -67,18 +67,25 @@ std::size_t Node::matched_writers() const {
   return sum;
 }
 
-void Node::report_endpoints(msg::ServiceStatus& status) const {
+std::vector<std::string> report_outputs(const std::vector<Node::OutputPart>& outputs,
+                                        msg::ServiceStatus& status) {
   std::vector<std::string> mismatches;
-  const auto append = [&](std::vector<std::string> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(mismatches));
-  };
-  for (std::size_t i = 0; i < outputs_.size() && i < status.outputs().size(); ++i) {
-    status.outputs()[i].readers(static_cast<std::uint32_t>(outputs_[i].output->matched()));
-    append(outputs_[i].output->incompatible_qos());
+  for (std::size_t i = 0; i < outputs.size() && i < status.outputs().size(); ++i) {
+    status.outputs()[i].readers(static_cast<std::uint32_t>(outputs[i].output->matched()));
+    for (std::string& text : outputs[i].output->incompatible_qos()) {
+      mismatches.push_back(std::move(text));
+    }
   }
+  return mismatches;
+}
+
+void Node::report_endpoints(msg::ServiceStatus& status) const {
+  std::vector<std::string> mismatches = report_outputs(outputs_, status);
   for (std::size_t i = 0; i < ports_.size() && i < status.inputs().size(); ++i) {
     status.inputs()[i].writers(static_cast<std::uint32_t>(ports_[i]->part.input->matched()));
-    append(ports_[i]->part.input->incompatible_qos());
+    for (std::string& text : ports_[i]->part.input->incompatible_qos()) {
+      mismatches.push_back(std::move(text));
+    }
   }
   status.incompatible_qos(std::move(mismatches));
 }

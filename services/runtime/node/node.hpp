@@ -131,4 +131,8 @@ class Node {
   bool left_ = false;
 };
 
+/// Fills in the readers of each output; returns those that do not fit, with both sides' values.
+[[nodiscard]] std::vector<std::string> report_outputs(const std::vector<Node::OutputPart>& outputs,
+                                                      msg::ServiceStatus& status);
+
 }  // namespace quoin::runtime

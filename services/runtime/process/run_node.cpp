@@ -37,7 +37,7 @@ class NodeProcess {
                .method = service.config.method,
                .parameters = service.config.parameters,
                .held = service.held},
-              make, outputs(), service.data_thread()),
+              make, make_outputs(service, kind, types), service.data_thread()),
         control_(service, node_.succession(),
                  [this](const msg::ControlRequest& request, msg::ControlReply& reply) {
                    node_.exchange().handle(request, reply);
@@ -63,17 +63,6 @@ class NodeProcess {
   }
 
  private:
-  [[nodiscard]] std::vector<Node::OutputPart> outputs() {
-    std::vector<Node::OutputPart> parts;
-    for (std::size_t i = 0; i < kind_.outputs.size(); ++i) {
-      const OutputConfig& output = service_.config.outputs[i];
-      const TopicQos qos = output_qos(service_.config, output);
-      parts.push_back({kind_.outputs[i], output.topic, qos.preset == QosPreset::lossless,
-                       types_.outputs[i](service_.participant, output.topic, qos)});
-    }
-    return parts;
-  }
-
   [[nodiscard]] Node::InputPart wired(const Connection& connection) {
     const InputPort& port = *kind_.input(connection.port);
     const ServiceConfig& writer = *connection.writer;

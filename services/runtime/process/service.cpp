@@ -93,6 +93,18 @@ bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
   return !stop.requested();
 }
 
+std::vector<Node::OutputPart> make_outputs(Service& service, const KindInfo& kind,
+                                           const PortTypes& types) {
+  std::vector<Node::OutputPart> parts;
+  for (std::size_t i = 0; i < kind.outputs.size(); ++i) {
+    const OutputConfig& output = service.config.outputs[i];
+    const TopicQos qos = output_qos(service.config, output);
+    parts.push_back({kind.outputs[i], output.topic, qos.preset == QosPreset::lossless,
+                     types.outputs[i](service.participant, output.topic, qos)});
+  }
+  return parts;
+}
+
 int run_service(int argc, char** argv, const KindInfo& kind,
                 const std::function<void(const Deployment&, const ServiceConfig&)>& check,
                 const std::function<int(Service&)>& run) {

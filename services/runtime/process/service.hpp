@@ -11,9 +11,9 @@
 #include "services/deployment/exit_code.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/node/delivery.hpp"
+#include "services/runtime/node/dds_ports.hpp"
+#include "services/runtime/node/node.hpp"
 #include "services/runtime/node/service_record.hpp"
-#include "services/runtime/node/succession.hpp"
 #include "services/runtime/process/heartbeat.hpp"
 #include "services/runtime/process/stop_signal.hpp"
 
@@ -48,6 +48,10 @@ struct Service {
   [[nodiscard]] bool wait_for_readers(const std::vector<const Output*>& outputs,
                                       const Succession& succession);
 };
+
+/// The outputs of a kind as the deployment names them, on DDS. `types`: of the kind's ports.
+[[nodiscard]] std::vector<Node::OutputPart> make_outputs(Service& service, const KindInfo& kind,
+                                                         const PortTypes& types);
 
 /// The part of main that all services share: command line (--deployment FILE --service NAME), log,
 /// deployment file, signals. `check` runs before DDS is touched, for errors in the configuration

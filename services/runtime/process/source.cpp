@@ -132,35 +132,14 @@ bool all_is_acknowledged(const Service& service, const Outputs& outputs) {
   return true;
 }
 
-Outputs make_outputs(Service& service, const KindInfo& kind, const PortTypes& types) {
-  Outputs outputs;
-  for (std::size_t i = 0; i < kind.outputs.size(); ++i) {
-    const OutputConfig& output = service.config.outputs[i];
-    const TopicQos qos = output_qos(service.config, output);
-    service.record.add_output(output.topic);
-    outputs.push_back({kind.outputs[i], output.topic, qos.preset == QosPreset::lossless,
-                       types.outputs[i](service.participant, output.topic, qos)});
-  }
-  return outputs;
-}
-
-void report_endpoints(const Outputs& outputs, msg::ServiceStatus& status) {
-  std::vector<std::string> mismatches;
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    status.outputs()[i].readers(static_cast<std::uint32_t>(outputs[i].output->matched()));
-    for (std::string& text : outputs[i].output->incompatible_qos()) {
-      mismatches.push_back(std::move(text));
-    }
-  }
-  status.incompatible_qos(std::move(mismatches));
-}
-
 int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
                 const std::function<void(Source&)>& body) {
   Outputs outputs = make_outputs(service, kind, types);
+  for (const Node::OutputPart& part : outputs) service.record.add_output(part.topic);
   Succession succession(service.held);
-  service.record.set_endpoint_report(
-      [&outputs](msg::ServiceStatus& status) { report_endpoints(outputs, status); });
+  service.record.set_endpoint_report([&outputs](msg::ServiceStatus& status) {
+    status.incompatible_qos(report_outputs(outputs, status));
+  });
   ControlServer control(service, succession,
                         [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
                           if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
