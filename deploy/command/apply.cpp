@@ -22,7 +22,6 @@
 #include "deploy/orchestration/requester.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "services/deployment/deployment.hpp"
-#include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/participant.hpp"
 

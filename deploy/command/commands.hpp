@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "services/deployment/exit_code.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 

@@ -21,8 +21,8 @@
 #include "deploy/orchestration/signals.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/keys/key_files.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 #include "services/topics/header.hpp"
 
 namespace quoin::deploy {

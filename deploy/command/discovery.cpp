@@ -12,7 +12,7 @@
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/process/memory.hpp"
+#include "services/runtime/process/heartbeat.hpp"
 
 namespace quoin::deploy {
 

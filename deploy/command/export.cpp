@@ -103,8 +103,8 @@ int export_systemd(const ExportOptions& options) {
   tell_of_remains(options.output, plan.id, units);
 
   std::set<std::string> obstacles{obstacle_to_others(plan.file, false)};
-  for (const ExportedService& service : plan.services) {
-    obstacles.insert(obstacle_to_others(programs / service.program, true));
+  for (const ExportedProcess& process : plan.processes) {
+    obstacles.insert(obstacle_to_others(programs / process.program, true));
   }
   obstacles.erase("");
   for (const std::string& obstacle : obstacles) {
@@ -128,9 +128,9 @@ int export_compose(const ExportOptions& options) {
   if (!may_write({options.output}, options.force)) return exit_failure;
   write_whole(options.output, compose_file(plan, options.compose));
   std::cout << options.output << '\n';
-  for (const ExportedService& service : plan.services) {
-    if (service.serial_port != "auto") continue;
-    std::cerr << "service '" << service.label << "' finds its serial port by itself; its container"
+  for (const ExportedProcess& process : plan.processes) {
+    if (process.serial_port != "auto") continue;
+    std::cerr << "service '" << process.name << "' finds its serial port by itself; its container"
               << " is given " << options.compose.serial_port << " (--serial-port)\n";
   }
   if (deployment.security) {

@@ -10,7 +10,6 @@
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
 #include "services/deployment/deployment.hpp"
-#include "services/keys/key_check.hpp"
 #include "services/keys/key_directory.hpp"
 #include "services/keys/key_files.hpp"
 
@@ -65,8 +64,9 @@ int add(const KeyOptions& options) {
 
 void tell_what_to_copy(const KeyOptions& options, const Deployment& deployment) {
   std::map<std::string, std::vector<std::string>> hosts;
-  for (const ServiceConfig& service : deployment.services) {
-    if (!service.host.empty()) hosts[service.host].push_back(label(service));
+  for (const ProcessConfig& process : processes_of(deployment)) {
+    const ServiceConfig& first = *process.services.front();
+    if (!first.host.empty() && !first.external()) hosts[first.host].push_back(process.name);
   }
   if (hosts.empty()) return;
   std::cout << "of " << options.directory << ", copy to\n";
@@ -147,10 +147,11 @@ Command add_keys(CLI::App& app) {
   first->add_flag("--force", options->force, "Replace an authority; its identities are void then");
 
   CLI::App* const second = add_step(*line, "add", "Make identities", options);
-  CLI::Option* names = second->add_option(
-      "names", options->names,
-      "Services by name (NAME@STRENGTH where there are instances), quoin-operator (up, swap, set), "
-      "quoin-observer (status, echo, draw, compare, doctor)");
+  CLI::Option* names = second->add_option("names", options->names,
+                                          "Services by name (NAME@STRENGTH where there are "
+                                          "instances), processes of several services by "
+                                          "theirs, quoin-operator (up, swap, set), "
+                                          "quoin-observer (status, echo, draw, compare, doctor)");
   second
       ->add_option("--deployment", options->file,
                    "Deployment file (YAML): all of its identities that are not there yet")

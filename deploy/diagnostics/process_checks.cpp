@@ -46,6 +46,7 @@ std::string status_of(const fs::path& process, std::string_view key) {
 bool is_service(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return false;
   const std::string program = fs::path(arguments.front()).filename();
+  if (program == process_program()) return true;
   return std::any_of(kinds().kinds.begin(), kinds().kinds.end(), [&](const KindInfo* kind) {
     return !kind->program.empty() && kind->program == program;
   });
@@ -80,8 +81,10 @@ Check check_orphans(const fs::path& processes) {
   for (const fs::path& process : process_folders(processes)) {
     const std::vector<std::string> arguments = arguments_of(process);
     if (!is_service(arguments) || status_of(process, "PPid") != "1" || is_unit(process)) continue;
-    const auto service = std::find(arguments.begin(), arguments.end(), "--service");
-    const std::string name = arguments.end() - service > 1 ? *(service + 1) : arguments.front();
+    const auto option = std::ranges::find_if(arguments, [](const std::string& argument) {
+      return argument == "--service" || argument == "--process";
+    });
+    const std::string name = arguments.end() - option > 1 ? *(option + 1) : arguments.front();
     const std::string number = process.filename();
     found += (found.empty() ? "" : ", ") + name + " (process " + number + ")";
     kill += " " + number;

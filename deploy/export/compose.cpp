@@ -41,34 +41,34 @@ std::string project_name(const ExportPlan& plan) {
   return name;
 }
 
-std::string restart_policy(const ExportedService& service) {
-  if (service.restart == RestartPolicy::never) return "\"no\"";
-  return service.may_finish ? "on-failure" : "unless-stopped";
+std::string restart_policy(const ExportedProcess& process) {
+  if (process.restart == RestartPolicy::never) return "\"no\"";
+  return process.may_finish ? "on-failure" : "unless-stopped";
 }
 
-std::string device_lines(const ExportedService& service, const ComposeOptions& options) {
-  if (!service.serial_port) return "";
+std::string device_lines(const ExportedProcess& process, const ComposeOptions& options) {
+  if (!process.serial_port) return "";
   const std::string& port =
-      *service.serial_port == "auto" ? options.serial_port : *service.serial_port;
+      *process.serial_port == "auto" ? options.serial_port : *process.serial_port;
   return "    devices:\n      - " + yaml_text(port + ":" + port) +
          "\n    group_add:\n      - dialout\n";
 }
 
-std::string service_lines(const ExportPlan& plan, const ExportedService& service,
+std::string service_lines(const ExportPlan& plan, const ExportedProcess& process,
                           const ComposeOptions& options) {
   const auto file = std::filesystem::path(deployment_folder) / plan.file.filename();
-  std::string text = "  " + yaml_text(service.id) + ":\n";
+  std::string text = "  " + yaml_text(process.id) + ":\n";
   text += "    image: " + yaml_text(options.image) + "\n";
   text += "    command:\n";
-  text += "      - " + yaml_text(service.program) + "\n";
-  for (const std::string& argument : service.arguments(file)) {
+  text += "      - " + yaml_text(process.program) + "\n";
+  for (const std::string& argument : process.arguments(file)) {
     text += "      - " + yaml_text(argument) + "\n";
   }
   text +=
       "    network_mode: host\n"
       "    init: true\n"
       "    restart: " +
-      restart_policy(service) +
+      restart_policy(process) +
       "\n"
       // Nobody, unless another one is to read the keys.
       "    user: \"${QUOIN_USER:-65534:65534}\"\n"
@@ -90,10 +90,10 @@ std::string service_lines(const ExportPlan& plan, const ExportedService& service
     text += "      - type: bind\n        source: " + keys + "\n        target: " + keys +
             "\n        read_only: true\n";
   }
-  text += device_lines(service, options);
-  if (service.after.empty()) return text;
+  text += device_lines(process, options);
+  if (process.after.empty()) return text;
   text += "    depends_on:\n";
-  for (const std::string& id : service.after) text += "      - " + yaml_text(id) + "\n";
+  for (const std::string& id : process.after) text += "      - " + yaml_text(id) + "\n";
   return text;
 }
 
@@ -103,8 +103,8 @@ std::string compose_file(const ExportPlan& plan, const ComposeOptions& options) 
   std::string text = std::string(export_marker) + "\n";
   text += "# The image is built by deploy/container/Dockerfile.\n";
   text += "name: " + yaml_text(project_name(plan)) + "\nservices:\n";
-  for (const ExportedService& service : plan.services) {
-    text += service_lines(plan, service, options);
+  for (const ExportedProcess& process : plan.processes) {
+    text += service_lines(plan, process, options);
   }
   return text;
 }

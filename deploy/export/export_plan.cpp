@@ -3,7 +3,9 @@
 #include "deploy/export/export_plan.hpp"
 
 #include <algorithm>
+#include <map>
 
+#include "deploy/kinds/kinds.hpp"
 #include "sensor_bridge/rplidar/service/parameters.hpp"
 #include "sensor_bridge/transport/endpoint.hpp"
 #include "services/deployment/graph.hpp"
@@ -12,33 +14,72 @@ namespace quoin::deploy {
 
 namespace {
 
-/// Names of services have no '-' in them.
+/// Names of services and processes have no '-' in them.
 std::string id_of(const ServiceConfig& service) {
-  std::string id = label(service);
+  std::string id = process_name(service);
   std::ranges::replace(id, '@', '-');
   return id;
 }
 
-void look_at_device(const ServiceConfig& config, ExportedService& service) {
+void look_at_device(const ServiceConfig& config, ExportedProcess& process) {
   using namespace sensor_bridge;
   using namespace sensor_bridge::rplidar;
-  if (config.kind == "rplidar_emulator") service.own_network = true;
+  if (config.kind == "rplidar_emulator") process.own_network = true;
   if (config.kind != "rplidar") return;
   const std::string port = make_parameters<RplidarParameters>(config.parameters).serial_port;
   if (port == "auto" || parse_endpoint(port).kind == Endpoint::Kind::serial) {
-    service.serial_port = port;
+    process.serial_port = port;
   } else {
-    service.own_network = true;
+    process.own_network = true;
   }
 }
 
 }  // namespace
 
-std::vector<std::string> ExportedService::arguments(const std::filesystem::path& file) const {
+std::vector<std::string> ExportedProcess::arguments(const std::filesystem::path& file) const {
   if (!command.empty()) return {command.begin() + 1, command.end()};
-  if (!is_service()) return {"discovery", file.string()};
-  return {"--deployment", file.string(), "--service", label};
+  if (!runs_services()) return {"discovery", file.string()};
+  return {"--deployment", file.string(), composed ? "--process" : "--service", name};
 }
+
+namespace {
+
+ExportedProcess export_process(const ProcessConfig& process) {
+  const ServiceConfig& first = *process.services.front();
+  ExportedProcess exported;
+  exported.name = process.name;
+  exported.id = id_of(first);
+  exported.composed = !first.process.empty();
+  exported.restart = first.restart;
+  if (first.external()) {
+    exported.command = first.program;
+    exported.program = first.program.front();
+  } else {
+    exported.program = exported.composed ? process_program() : first.info->program;
+  }
+  exported.kind = first.kind;
+  if (exported.composed) {
+    exported.kind.clear();
+    for (const ServiceConfig* service : process.services) {
+      exported.kind += (exported.kind.empty() ? "" : ", ") + label(*service);
+    }
+  }
+  for (const ServiceConfig* service : process.services) {
+    if (service->is_source() && !service->external() && service->kind != "rplidar") {
+      exported.may_finish = true;
+    }
+    look_at_device(*service, exported);
+  }
+  return exported;
+}
+
+/// Adds an id once.
+void add_after(const std::string& id, ExportedProcess& exported) {
+  if (id == exported.id || std::ranges::find(exported.after, id) != exported.after.end()) return;
+  exported.after.push_back(id);
+}
+
+}  // namespace
 
 ExportPlan plan_export(const Deployment& deployment, const std::string& host,
                        bool discovery_servers) {
@@ -48,41 +89,37 @@ ExportPlan plan_export(const Deployment& deployment, const std::string& host,
   plan.id = "quoin-" + deployment.name_space;
   std::ranges::replace(plan.id, '/', '-');
   if (discovery_servers) {
-    ExportedService servers;
-    servers.label = "discovery";
+    ExportedProcess servers;
+    servers.name = "discovery";
     servers.id = "discovery-server";  // no service is called like this
     servers.kind = "discovery";
     servers.program = "quoin";
-    plan.services.push_back(servers);
+    plan.processes.push_back(servers);
   }
   const Graph graph(deployment);
+  std::map<std::string, int> levels;  // by id
   std::vector<std::string> devices;
-  for (const ServiceConfig& service : deployment.services) {
-    if (service.host == host && service.info->exclusive) devices.push_back(id_of(service));
+  const std::vector<ProcessConfig> processes = processes_of(deployment);
+  for (const ProcessConfig& process : processes) {
+    for (const ServiceConfig* service : process.services) {
+      if (service->host == host && service->info->exclusive) devices.push_back(id_of(*service));
+    }
+    levels[id_of(*process.services.front())] = graph.level(process);
   }
-  for (const ServiceConfig& service : deployment.services) {
-    if (service.host != host || !service.has_process()) continue;
-    ExportedService exported;
-    exported.kind = service.kind;
-    exported.restart = service.restart;
-    exported.label = label(service);
-    exported.id = id_of(service);
-    if (service.external()) {
-      exported.command = service.program;
-      exported.program = service.program.front();
-    } else {
-      exported.program = service.info->program;
-    }
+  for (const ProcessConfig& process : processes) {
+    if (process.services.front()->host != host) continue;
+    ExportedProcess exported = export_process(process);
     if (discovery_servers) exported.after.emplace_back("discovery-server");
-    for (const ServiceConfig* reader : graph.readers_of(service.name)) {
-      if (reader->host == host && reader->has_process()) exported.after.push_back(id_of(*reader));
+    for (const ServiceConfig* service : process.services) {
+      for (const ServiceConfig* reader : graph.readers_of(service->name)) {
+        if (reader->host != host || !reader->has_process()) continue;
+        // Two processes that read each other have no order but this.
+        if (levels[id_of(*reader)] > levels[exported.id]) add_after(id_of(*reader), exported);
+      }
+      if (!service->is_source() || service->external()) continue;
+      for (const std::string& device : devices) add_after(device, exported);
     }
-    if (service.is_source() && !service.external()) {
-      exported.after.insert(exported.after.end(), devices.begin(), devices.end());
-      exported.may_finish = service.kind != "rplidar";
-    }
-    look_at_device(service, exported);
-    plan.services.push_back(std::move(exported));
+    plan.processes.push_back(std::move(exported));
   }
   return plan;
 }

@@ -11,11 +11,13 @@
 
 namespace quoin::deploy {
 
-/// A service as another supervisor has to run it, or the discovery servers of a host.
-struct ExportedService {
-  std::string label;                      ///< of the service in the deployment file
+/// A process as another supervisor has to run it: of one service or of several, or the discovery
+/// servers of a host.
+struct ExportedProcess {
+  std::string name;                       ///< in the deployment file, of a service by its label
   std::string id;                         ///< the same for names of units and containers
-  std::string kind;                       ///< of the service; "discovery" for the servers
+  std::string kind;                       ///< of the service, "discovery", or "walls, corners"
+  bool composed = false;                  ///< of several services
   std::string program;                    ///< file name of the executable
   std::vector<std::string> command = {};  ///< of kind external: the whole command line
   RestartPolicy restart = RestartPolicy::always;
@@ -28,8 +30,8 @@ struct ExportedService {
   /// Speaks to addresses that the deployment's network does not name.
   bool own_network = false;
 
-  /// Whether it is a service of this project, which reports to its supervisor.
-  [[nodiscard]] bool is_service() const { return kind != "discovery" && command.empty(); }
+  /// Whether it is a program of this project that reports to its supervisor.
+  [[nodiscard]] bool runs_services() const { return kind != "discovery" && command.empty(); }
   /// Of the program, when the deployment's file is at `file`.
   [[nodiscard]] std::vector<std::string> arguments(const std::filesystem::path& file) const;
 };
@@ -39,7 +41,7 @@ struct ExportPlan {
   const Deployment* deployment = nullptr;
   std::filesystem::path file;  ///< of the deployment, absolute
   std::string id;              ///< quoin-NAMESPACE, / replaced
-  std::vector<ExportedService> services;
+  std::vector<ExportedProcess> processes;
 };
 
 /// The share of `host`, "" for a deployment that names no hosts; with its discovery servers, if

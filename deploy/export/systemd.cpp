@@ -23,47 +23,47 @@ std::string head(const ExportPlan& plan) {
 UnitFile target(const ExportPlan& plan) {
   std::string text = head(plan);
   text += "[Unit]\nDescription=Quoin deployment " + plan.deployment->name_space + "\n";
-  for (const ExportedService& service : plan.services) {
-    text += "Wants=" + unit_name(plan, service.id) + "\n";
+  for (const ExportedProcess& process : plan.processes) {
+    text += "Wants=" + unit_name(plan, process.id) + "\n";
   }
   text += "\n[Install]\nWantedBy=multi-user.target\n";
   return {plan.id + ".target", text};
 }
 
 /// What `quoin up` does, as far as systemd can. Its pauses do not grow before version 254.
-std::string restart_lines(const ExportPlan& plan, const ExportedService& service) {
-  if (service.restart == RestartPolicy::never) return "Restart=no\n";
+std::string restart_lines(const ExportPlan& plan, const ExportedProcess& process) {
+  if (process.restart == RestartPolicy::never) return "Restart=no\n";
   // A source that has published everything is done.
-  std::string text = service.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
-  const auto pause = service.is_service() ? std::chrono::milliseconds(1000)
-                                          : discovery_pause(plan.deployment->network);
+  std::string text = process.may_finish ? "Restart=on-failure\n" : "Restart=always\n";
+  const auto pause = process.runs_services() ? std::chrono::milliseconds(1000)
+                                             : discovery_pause(plan.deployment->network);
   text += "RestartSec=" + std::to_string(pause.count()) + "ms\n";
   // 2: a wrong configuration, 3: an unusable input. But a device or an interface may come later.
-  const bool may_come = service.serial_port || !plan.deployment->network.interfaces.empty();
+  const bool may_come = process.serial_port || !plan.deployment->network.interfaces.empty();
   text += std::string("RestartPreventExitStatus=") + (may_come ? "3\n" : "2 3\n");
   return text;
 }
 
-std::string device_lines(const ExportedService& service) {
-  if (!service.serial_port) return "PrivateDevices=yes\nPrivateUsers=yes\n";
+std::string device_lines(const ExportedProcess& process) {
+  if (!process.serial_port) return "PrivateDevices=yes\nPrivateUsers=yes\n";
   std::string text =
       "SupplementaryGroups=dialout\n"
       "PrivateDevices=no\n"
       "DeviceAllow=char-ttyUSB rw\n"
       "DeviceAllow=char-ttyACM rw\n";
-  const std::string& port = *service.serial_port;
+  const std::string& port = *process.serial_port;
   const bool usb = port == "auto" || port.starts_with("/dev/ttyUSB") ||
                    port.starts_with("/dev/ttyACM") || port.starts_with("/dev/rplidar-");
   if (!usb && port.starts_with("/dev/")) text += "DeviceAllow=" + unit_word(port) + " rw\n";
   return text;
 }
 
-std::string network_lines(const ExportPlan& plan, const ExportedService& service) {
+std::string network_lines(const ExportPlan& plan, const ExportedProcess& process) {
   // Netlink tells of the interfaces, Unix sockets lead to systemd itself.
   std::string text = "RestrictAddressFamilies=AF_INET AF_UNIX AF_NETLINK";
-  if (service.own_network) text += " AF_INET6";
+  if (process.own_network) text += " AF_INET6";
   text += "\n";
-  const bool loopback_only = plan.deployment->network.interfaces.empty() && !service.own_network;
+  const bool loopback_only = plan.deployment->network.interfaces.empty() && !process.own_network;
   if (loopback_only) text += "IPAddressDeny=any\nIPAddressAllow=localhost\n";
   return text;
 }
@@ -96,48 +96,48 @@ constexpr const char* hardening =
     "SystemCallErrorNumber=EPERM\n"
     "DevicePolicy=closed\n";
 
-UnitFile unit(const ExportPlan& plan, const ExportedService& service,
+UnitFile unit(const ExportPlan& plan, const ExportedProcess& process,
               const std::filesystem::path& programs) {
   std::string text = head(plan);
-  text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + service.label + " (" +
-          service.kind + ")\n";
+  text += "[Unit]\nDescription=Quoin " + plan.deployment->name_space + ": " + process.name + " (" +
+          process.kind + ")\n";
   text += "PartOf=" + plan.id + ".target\n";
   if (!plan.deployment->network.interfaces.empty()) {
     text += "Wants=network-online.target\nAfter=network-online.target\n";
   }
   // Started behind those who read its output and stopped before them.
-  for (const std::string& id : service.after) text += "After=" + unit_name(plan, id) + "\n";
+  for (const std::string& id : process.after) text += "After=" + unit_name(plan, id) + "\n";
   text += "StartLimitIntervalSec=0\n";
 
-  text += std::string("\n[Service]\nType=") + (service.is_service() ? "notify" : "exec") +
-          "\nExecStart=" + unit_program((programs / service.program).string());
-  for (const std::string& argument : service.arguments(plan.file)) {
+  text += std::string("\n[Service]\nType=") + (process.runs_services() ? "notify" : "exec") +
+          "\nExecStart=" + unit_program((programs / process.program).string());
+  for (const std::string& argument : process.arguments(plan.file)) {
     text += " " + unit_argument(argument);
   }
   text += "\n";
   text += "# For variables that the deployment file names.\nEnvironmentFile=-/etc/default/" +
           plan.id + "\n";
-  text += restart_lines(plan, service);
+  text += restart_lines(plan, process);
   // A lookup of a device's host name alone may take ten seconds.
-  if (service.is_service()) {
-    text += std::string("WatchdogSec=") + (service.own_network ? "30s\n" : "10s\n");
+  if (process.runs_services()) {
+    text += std::string("WatchdogSec=") + (process.own_network ? "30s\n" : "10s\n");
   }
   text += "TimeoutStartSec=30s\nTimeoutStopSec=10s\n\n";
   // Keys are for one user's eyes only, and a dynamic user has another number at each start.
   text += plan.deployment->security ? std::string("User=") + user_with_keys + "\n"
                                     : "DynamicUser=yes\n";
   text += hardening;
-  text += device_lines(service);
-  text += network_lines(plan, service);
-  return {unit_name(plan, service.id), text};
+  text += device_lines(process);
+  text += network_lines(plan, process);
+  return {unit_name(plan, process.id), text};
 }
 
 }  // namespace
 
 std::vector<UnitFile> systemd_units(const ExportPlan& plan, const std::filesystem::path& programs) {
   std::vector<UnitFile> units{target(plan)};
-  for (const ExportedService& service : plan.services) {
-    units.push_back(unit(plan, service, programs));
+  for (const ExportedProcess& process : plan.processes) {
+    units.push_back(unit(plan, process, programs));
   }
   return units;
 }

@@ -21,4 +21,6 @@ const KindList& kinds() {
   return all;
 }
 
+const char* process_program() { return "quoin-process"; }
+
 }  // namespace quoin::deploy

@@ -16,6 +16,9 @@ namespace quoin::deploy {
 /// Null when there is no such kind.
 [[nodiscard]] inline const KindInfo* find_kind(std::string_view name) { return kinds().find(name); }
 
+/// File name of the program that runs several services of these kinds in one process.
+[[nodiscard]] const char* process_program();
+
 /// Of services of these kinds. Throw DeploymentError with all that is wrong.
 [[nodiscard]] inline Deployment load_deployment(const std::filesystem::path& file) {
   return quoin::load_deployment(file, kinds());

@@ -14,8 +14,8 @@
 #include "services/deployment/graph.hpp"
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/accounting/source_ledger.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 #include "services/topics/cdr_codec.hpp"
 
 namespace quoin::deploy {

@@ -13,8 +13,8 @@
 
 #include "deploy/observation/figures.hpp"
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 
 namespace quoin::deploy {
 

@@ -18,9 +18,9 @@
 #include "deploy/observation/end_watch.hpp"
 #include "deploy/observation/figures.hpp"
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/process/memory.hpp"
+#include "services/runtime/process/heartbeat.hpp"
 
 namespace quoin::deploy {
 

@@ -14,8 +14,8 @@
 
 #include "deploy/evaluation/drawing/drawing.hpp"
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 
 namespace quoin::deploy {
 

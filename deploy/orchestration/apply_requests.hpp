@@ -7,9 +7,8 @@
 #include <string>
 
 #include "deploy/orchestration/composition.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
 
 namespace quoin::deploy {
 

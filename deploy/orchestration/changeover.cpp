@@ -31,23 +31,20 @@ std::vector<std::string> topics_of(const ServiceConfig& service) {
 }
 
 /// The plan with more readers to wait for, publishing only when told to.
-ProcessPlan held_plan(ProcessPlan plan, int more_readers) {
-  const auto option = std::find(plan.arguments.begin(), plan.arguments.end(), "--observers");
-  if (option != plan.arguments.end()) {
-    more_readers += std::stoi(*std::next(option));
-    plan.arguments.erase(option, option + 2);
+ProcessPlan held_plan(ProcessPlan plan, const std::map<std::string, int>& more_readers) {
+  for (const auto& [service, count] : more_readers) {
+    plan.arguments.insert(plan.arguments.end(),
+                          {"--observers", service + "=" + std::to_string(count)});
   }
-  plan.arguments.insert(plan.arguments.end(),
-                        {"--observers", std::to_string(more_readers), "--held"});
+  plan.arguments.emplace_back("--held");
   return plan;
 }
 
 /// A line of a service's log without time, name and level.
-std::string message_of(const std::string& line, const std::string& service) {
-  const std::string name = "[" + service + "] ";
-  const std::size_t at = line.find(name);
+std::string message_of(const std::string& line) {
+  const std::size_t at = line.find("] ");
   if (at == std::string::npos) return line;
-  const std::size_t level = line.find(' ', at + name.size());
+  const std::size_t level = line.find(' ', at + 2);
   return level == std::string::npos ? line : line.substr(level + 1);
 }
 
@@ -86,7 +83,9 @@ void Changeover::commit() {
   if (committed_) return;
   committed_ = true;
   for (const ProcessPlan& plan : plans_) {
-    if (!plan_.replaces(plan.name)) world_.supervisor.replan(plan);
+    const bool replaced = std::ranges::any_of(
+        plan.services, [&](const std::string& service) { return plan_.replaces(service); });
+    if (!replaced) world_.supervisor.replan(plan);
   }
 }
 
@@ -97,9 +96,10 @@ void Changeover::change(const std::string& service) {
                    [&](const Change& candidate) { return candidate.service == service; });
   if (change == plan_.changes.end() || !done_.insert(service).second) return;
   if (change->action == ChangeAction::stop) {
-    if (const auto key = world_.supervisor.key_of(service)) stop({*key});
+    stop_service(service);
     return;
   }
+  if (change->action == ChangeAction::replace) hold_all();
   const auto newcomer =
       std::find_if(newcomers_.begin(), newcomers_.end(),
                    [&](const Newcomer& candidate) { return candidate.change == &*change; });
@@ -121,36 +121,42 @@ void Changeover::finish() {
 
 void Changeover::start_newcomers() {
   for (const Change& change : plan_.changes) {
-    if (change.action == ChangeAction::replace) {
-      if (const auto key = world_.supervisor.key_of(change.service)) {
-        if (world_.supervisor.running(*key)) predecessors_[change.service] = *key;
-      }
-    }
+    if (change.action != ChangeAction::replace && change.action != ChangeAction::stop) continue;
+    const auto key = world_.supervisor.key_of(change.service);
+    if (key && world_.supervisor.running(*key)) predecessors_[change.service] = *key;
   }
+  std::map<std::string, int> keys;  // of the new processes, by name
   for (const Change& change : plan_.changes) {
-    if (change.action == ChangeAction::start || change.action == ChangeAction::replace) {
-      start(change);
-    }
+    if (change.action != ChangeAction::start && change.action != ChangeAction::replace) continue;
+    const auto plan = std::find_if(plans_.begin(), plans_.end(), [&](const ProcessPlan& candidate) {
+      return candidate.runs(change.service);
+    });
+    const auto key = keys.find(plan->name);
+    const int started = key == keys.end() ? start(*plan) : key->second;
+    keys[plan->name] = started;
+    newcomers_.push_back({&change, &wanted_.service(change.service), &*plan, started});
   }
 }
 
-void Changeover::start(const Change& change) {
-  const ServiceConfig& config = wanted_.service(change.service);
-  const auto plan = std::find_if(plans_.begin(), plans_.end(), [&](const ProcessPlan& candidate) {
-    return candidate.name == change.service;
-  });
-  if (!can_be_held(config)) {
-    // It has a device or a port of which there is only one.
-    if (const auto old = predecessors_.find(change.service); old != predecessors_.end()) {
-      stopped_beforehand_.push_back(world_.supervisor.plan(old->second));
-      stop({old->second});
-      predecessors_.erase(old);
-    }
-    newcomers_.push_back({&change, &config, &*plan, world_.supervisor.add(*plan)});
-    return;
+int Changeover::start(const ProcessPlan& plan) {
+  std::map<std::string, int> more_readers;
+  bool held = true;
+  for (const std::string& service : plan.services) {
+    const ServiceConfig& config = wanted_.service(service);
+    held = held && can_be_held(config);
+    if (const int count = readers_to_go(config); count > 0) more_readers[service] = count;
   }
-  newcomers_.push_back(
-      {&change, &config, &*plan, world_.supervisor.add(held_plan(*plan, readers_to_go(config)))});
+  if (held) return world_.supervisor.add(held_plan(plan, more_readers));
+  // It has a device or a port of which there is only one.
+  for (const std::string& service : plan.services) {
+    const auto old = predecessors_.find(service);
+    if (old == predecessors_.end()) continue;
+    const int key = old->second;
+    stopped_beforehand_.push_back(world_.supervisor.plan(key));
+    stop({key});
+    std::erase_if(predecessors_, [&](const auto& entry) { return entry.second == key; });
+  }
+  return world_.supervisor.add(plan);
 }
 
 // Readers of the present output that are still there, but not for long: they must not be taken for
@@ -163,7 +169,7 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
   for (const ServiceConfig* reader : running.readers_of(service.name)) {
     const auto inputs = running.inputs_of(*reader);
     const auto readers = std::count_if(inputs.begin(), inputs.end(), [&](const Connection& input) {
-      return input.writer->name == service.name;
+      return input.writer->name == service.name && !share_memory(*input.writer, *reader);
     });
     if (elsewhere_.replaces(label(*reader)) || elsewhere_.stops(label(*reader))) {
       count += static_cast<int>(readers);
@@ -184,7 +190,7 @@ void Changeover::wait_until_ready() {
       const std::string& name = label(*newcomer.config);
       if (!waiting.contains(name)) continue;
       if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
-        const std::string line = message_of(world_.last_line(name), name);
+        const std::string line = message_of(world_.last_line(newcomer.plan->name));
         throw std::runtime_error("the new process of service '" + name + "' ended with " +
                                  describe(*end) + (line.empty() ? "" : ": " + line));
       }
@@ -198,7 +204,8 @@ void Changeover::wait_until_ready() {
   }
   // No request is lost from the first answer on.
   for (const auto& [name, key] : predecessors_) {
-    if (!world_.dialogue.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
+    if (!world_.dialogue.ask(name, incarnation_of(name, key),
+                             msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
                                "' does not answer; it is process " +
                                std::to_string(world_.supervisor.process_id(key)));
@@ -219,10 +226,9 @@ bool Changeover::ready(Newcomer& newcomer) {
       .has_value();
 }
 
-// Of a process of ours, should there be others of that name; 0 when nothing was heard of it.
-std::uint64_t Changeover::incarnation_of(int key) const {
-  const auto process =
-      world_.monitor.process(world_.supervisor.plan(key).name, world_.supervisor.process_id(key));
+// In a process of ours, should there be others of that name; 0 when nothing was heard of it.
+std::uint64_t Changeover::incarnation_of(const std::string& service, int key) const {
+  const auto process = world_.monitor.process(service, world_.supervisor.process_id(key));
   return process ? process->incarnation : 0;
 }
 
@@ -250,16 +256,31 @@ void Changeover::swap_methods() {
 void Changeover::roll_back() {
   for (const std::string& name : swapped_) (void)world_.dialogue.swap(running_.service(name));
   first_scans_.clear();
+  std::set<int> keys;
+  for (const Newcomer& newcomer : newcomers_) keys.insert(newcomer.key);
+  std::map<int, int> process_ids;
+  for (const int key : keys) process_ids[key] = world_.supervisor.process_id(key);
+  for (const int key : keys) stop({key});
   for (const Newcomer& newcomer : newcomers_) {
-    const int process_id = world_.supervisor.process_id(newcomer.key);
-    stop({newcomer.key});
-    world_.monitor.forget(label(*newcomer.config), process_id);
+    world_.monitor.forget(label(*newcomer.config), process_ids[newcomer.key]);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
     const int key = world_.supervisor.add(plan);
     world_.supervisor.adopt(key, plan);
   }
   world_.monitor.settle(running_);
+}
+
+/// Whoever takes over from a process that reads the same scans keeps them from now on: what runs
+/// beside it in one process hears nobody else once its neighbour has been replaced.
+void Changeover::hold_all() {
+  for (Newcomer& newcomer : newcomers_) {
+    const std::string name = label(*newcomer.config);
+    const bool takes_over = newcomer.change->same_scans && predecessors_.contains(name) &&
+                            newcomer.change->action == ChangeAction::replace;
+    if (!takes_over || newcomer.held || newcomer.config->is_source()) continue;
+    newcomer.held = hold(newcomer, first_scan_patience);
+  }
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
@@ -282,25 +303,27 @@ void Changeover::take_over(const Newcomer& newcomer) {
   }
   const bool same_scans = newcomer.change->same_scans;
   const bool source = newcomer.config->is_source();
-  const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
-  world_.supervisor.retire(predecessor->second, false);
+  const msg::ControlReply held =
+      newcomer.held ? *newcomer.held : hold(newcomer, source ? seconds(0) : first_scan_patience);
+  const std::string name = label(*newcomer.config);
+  const int key = predecessor->second;
+  // Each of its services may take its time.
+  world_.supervisor.retire(key, false, world_.supervisor.plan(key).services.size());
   msg::ControlRequest leave;
   leave.action(msg::ControlAction::CONTROL_HAND_OVER);
   if (same_scans) leave.positions(held.positions());
-  const auto handed_over = world_.dialogue.ask(
-      label(*newcomer.config), incarnation_of(predecessor->second), std::move(leave));
+  const auto handed_over = world_.dialogue.ask(name, incarnation_of(name, key), std::move(leave));
   msg::ControlRequest take;  // everything that is held
   if (handed_over && handed_over->accepted()) {
     if (same_scans) take.positions(handed_over->positions());
     take.state(handed_over->state());
   } else {
-    world_.supervisor.kill(predecessor->second);
-    world_.dialogue.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
-                               seconds(5));
+    world_.supervisor.kill(key);
+    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(5));
   }
-  first_scans_[label(*newcomer.config)] = same_scans && !take.positions().empty()
-                                              ? take.positions().front().sequence_number()
-                                              : held.first_sequence_number();
+  first_scans_[name] = same_scans && !take.positions().empty()
+                           ? take.positions().front().sequence_number()
+                           : held.first_sequence_number();
   begin_with(newcomer, std::move(take));
 }
 
@@ -325,14 +348,35 @@ void Changeover::begin_with(const Newcomer& newcomer, msg::ControlRequest take) 
 }
 
 void Changeover::stop_removed() {
-  std::map<int, std::vector<int>> levels;
+  std::map<int, std::vector<std::string>> levels;
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::stop || done_.contains(change.service)) continue;
-    if (const auto key = world_.supervisor.key_of(change.service)) {
-      levels[world_.supervisor.plan(*key).level].push_back(*key);
-    }
+    const auto key = predecessors_.find(change.service);
+    if (key == predecessors_.end()) continue;
+    const int level = std::max(Graph(running_).level(running_.service(change.service)),
+                               world_.supervisor.plan(key->second).level);
+    levels[level].push_back(change.service);
   }
-  for (const auto& [level, keys] : levels) stop(keys);
+  for (const auto& [level, services] : levels) {
+    for (const std::string& service : services) stop_service(service);
+  }
+}
+
+/// With its process, unless others of it go on or leave their work to a successor.
+void Changeover::stop_service(const std::string& service) {
+  const auto predecessor = predecessors_.find(service);
+  if (predecessor == predecessors_.end()) return;
+  const int key = predecessor->second;
+  if (!world_.supervisor.running(key)) return;
+  const std::vector<std::string>& services = world_.supervisor.plan(key).services;
+  const bool whole =
+      std::ranges::all_of(services, [&](const std::string& other) { return plan_.stops(other); });
+  if (whole) {
+    stop({key});
+  } else {
+    (void)world_.dialogue.ask(service, incarnation_of(service, key),
+                              msg::ControlAction::CONTROL_STOP);
+  }
 }
 
 void Changeover::stop(const std::vector<int>& keys) {

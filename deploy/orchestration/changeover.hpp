@@ -7,6 +7,7 @@
 #include <functional>
 #include <idl/Control.h>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -66,23 +67,26 @@ class Changeover {
     const ProcessPlan* plan;
     int key;
     std::uint64_t incarnation = 0;
+    std::optional<msg::ControlReply> held = std::nullopt;  ///< since when it keeps what comes
   };
 
   void start_newcomers();
-  void start(const Change& change);
+  [[nodiscard]] int start(const ProcessPlan& plan);
   [[nodiscard]] int readers_to_go(const ServiceConfig& service) const;
   void wait_until_ready();
   [[nodiscard]] bool ready(Newcomer& newcomer);
-  [[nodiscard]] std::uint64_t incarnation_of(int key) const;
+  [[nodiscard]] std::uint64_t incarnation_of(const std::string& service, int key) const;
   [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
   void swap_methods();
   void commit();
+  void hold_all();
   void begin(const Newcomer& newcomer);
   void take_over(const Newcomer& newcomer);
   [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
                                        std::chrono::milliseconds patience);
   void begin_with(const Newcomer& newcomer, msg::ControlRequest take);
   void stop_removed();
+  void stop_service(const std::string& service);
   void stop(const std::vector<int>& keys);
 
   World world_;
@@ -93,7 +97,7 @@ class Changeover {
   const std::vector<ProcessPlan>& plans_;
   std::chrono::milliseconds patience_;
   std::vector<Newcomer> newcomers_;
-  std::map<std::string, int> predecessors_;      // keys of the processes that are replaced
+  std::map<std::string, int> predecessors_;      // keys of processes that are left, by service
   std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
   std::vector<std::string> swapped_;
   bool committed_ = false;

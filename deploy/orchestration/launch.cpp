@@ -10,8 +10,8 @@
 #include <string>
 #include <unistd.h>
 
+#include "deploy/kinds/kinds.hpp"
 #include "services/deployment/graph.hpp"
-#include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 
@@ -50,55 +50,87 @@ std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
 
 }  // namespace
 
+namespace {
+
+std::filesystem::path program_of(const ProcessConfig& process) {
+  const ServiceConfig& first = *process.services.front();
+  const std::filesystem::path program =
+      program_folder() / (first.process.empty() ? first.info->program : process_program());
+  if (::access(program.c_str(), X_OK) != 0) {
+    throw std::runtime_error(program.string() + " is missing or not executable; " +
+                             (first.process.empty()
+                                  ? "service '" + first.name + "' of kind " + first.kind
+                                  : "process '" + process.name + "'") +
+                             " needs it");
+  }
+  return program;
+}
+
+ProcessPlan plan_of(const Deployment& deployment, const Graph& graph, const ProcessConfig& process,
+                    const std::function<int(const ServiceConfig&)>& observers,
+                    const std::filesystem::path& copy) {
+  const ServiceConfig& first = *process.services.front();
+  ProcessPlan plan;
+  plan.name = process.name;
+  plan.level = graph.level(process);
+  plan.restart = first.restart == RestartPolicy::always;
+  for (const ServiceConfig* service : process.services) plan.services.push_back(label(*service));
+  if (first.external()) {
+    plan.program = first.program.front();
+    plan.arguments.assign(first.program.begin() + 1, first.program.end());
+    return plan;
+  }
+  plan.program = program_of(process);
+  const std::string file = std::filesystem::absolute(deployment.file).string();
+  plan.arguments = {first.process.empty() ? "--service" : "--process", plan.name, "--deployment"};
+  if (copy.empty()) {
+    plan.arguments.push_back(file);
+  } else {
+    plan.arguments.insert(plan.arguments.end(), {copy.string(), "--deployment-name", file});
+  }
+  for (const ServiceConfig* service : process.services) {
+    if (const int count = observers(*service); count > 0) {
+      plan.arguments.insert(plan.arguments.end(),
+                            {"--observers", label(*service) + "=" + std::to_string(count)});
+    }
+    plan.source = plan.source || service->is_source();
+  }
+  plan.again = {"--patience",
+                deployment.security ? patience_of_a_secured_restart : patience_of_a_restart};
+  return plan;
+}
+
+/// A device that nobody else's process needs to hear before it stops.
+bool is_device(const ProcessConfig& process) {
+  return std::ranges::all_of(process.services,
+                             [](const ServiceConfig* service) { return service->info->exclusive; });
+}
+
+}  // namespace
+
 std::vector<ProcessPlan> process_plans(const Deployment& deployment, const std::string& host,
                                        const std::function<int(const ServiceConfig&)>& observers,
                                        const std::filesystem::path& copy) {
-  const std::filesystem::path folder = program_folder();
+  const Graph graph(deployment);
+  const std::vector<ProcessConfig> processes = processes_of(deployment);
   std::vector<std::string> identities{std::string(operator_identity)};
-  for (const ServiceConfig& service : deployment.services) {
-    if (service.host == host && !service.external()) identities.push_back(label(service));
+  for (const ProcessConfig& process : processes) {
+    const ServiceConfig& first = *process.services.front();
+    if (first.host == host && !first.external()) identities.push_back(process.name);
   }
   require_keys(deployment, identities);
-  const Graph graph(deployment);
   std::vector<ProcessPlan> plans;
-  std::vector<std::size_t> behind;
+  std::vector<std::size_t> devices;
   int last_level = 0;
-  for (const ServiceConfig& service : deployment.services) {
-    if (service.host != host || !service.has_process()) continue;
-    ProcessPlan plan;
-    plan.name = label(service);
-    plan.level = graph.level(service);
-    plan.restart = service.restart == RestartPolicy::always;
-    if (service.external()) {
-      plan.program = service.program.front();
-      plan.arguments.assign(service.program.begin() + 1, service.program.end());
-      plans.push_back(std::move(plan));
-      continue;
-    }
-    plan.program = folder / service.info->program;
-    if (::access(plan.program.c_str(), X_OK) != 0) {
-      throw std::runtime_error(plan.program.string() + " is missing or not executable; service '" +
-                               service.name + "' of kind " + service.kind + " needs it");
-    }
-    const std::string file = std::filesystem::absolute(deployment.file).string();
-    plan.arguments = {"--service", plan.name, "--deployment"};
-    if (copy.empty()) {
-      plan.arguments.push_back(file);
-    } else {
-      plan.arguments.insert(plan.arguments.end(), {copy.string(), "--deployment-name", file});
-    }
-    if (const int count = observers(service); count > 0) {
-      plan.arguments.insert(plan.arguments.end(), {"--observers", std::to_string(count)});
-    }
-    plan.source = service.is_source();
-    plan.again = {"--patience",
-                  deployment.security ? patience_of_a_secured_restart : patience_of_a_restart};
-    if (service.info->exclusive) behind.push_back(plans.size());
+  for (const ProcessConfig& process : processes) {
+    if (process.services.front()->host != host) continue;
+    ProcessPlan plan = plan_of(deployment, graph, process, observers, copy);
+    if (is_device(process)) devices.push_back(plans.size());
     last_level = std::max(last_level, plan.level);
     plans.push_back(std::move(plan));
   }
   // A device is there for the others, and stops when they have.
-  for (const std::size_t index : behind) plans[index].level = last_level + 1;
+  for (const std::size_t index : devices) plans[index].level = last_level + 1;
   if (auto discovery = discovery_plan(deployment, copy.empty() ? deployment.file : copy))
     plans.push_back(std::move(*discovery));
   return plans;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "core/parameters/changed_settings.hpp"
@@ -121,6 +122,12 @@ std::string reason_to_replace(const Deployment& running, const ServiceConfig& no
   std::vector<std::string> reasons;
   if (now.kind != then.kind) reasons.push_back(arrow("kind", now.kind, then.kind));
   if (now.program != then.program) reasons.push_back("program");
+  if (now.process != then.process) {
+    const auto name = [](const ServiceConfig& service) {
+      return service.process.empty() ? "its own" : service.process;
+    };
+    reasons.push_back(arrow("process", name(now), name(then)));
+  }
   append_input_changes(running, now, wanted, then, reasons);
   const KindInfo& kind = *then.info;
   if (now.kind == then.kind && kind.methods.empty()) {
@@ -156,6 +163,15 @@ bool claim_differs(const Deployment& running, const ServiceConfig& then) {
       });
 }
 
+/// The new process has the new method from its start.
+Change replacement(const Deployment& running, const ServiceConfig& now, const Deployment& wanted,
+                   const ServiceConfig& then, std::string reason) {
+  const std::string swapped = now.kind == then.kind ? reason_to_swap(now, then) : "";
+  if (!swapped.empty()) reason += ", " + swapped;
+  return {ChangeAction::replace, label(then), reason + dropped_state(now, then),
+          Graph(running).source_of(now).name == Graph(wanted).source_of(then).name};
+}
+
 Change change_of(const Deployment& running, const Deployment& wanted, const ServiceConfig& then) {
   const ServiceConfig* now = find(running, label(then), then.host);
   if (now == nullptr) {
@@ -165,11 +181,7 @@ Change change_of(const Deployment& running, const Deployment& wanted, const Serv
     return {ChangeAction::start, label(then), detail};
   }
   if (std::string reason = reason_to_replace(running, *now, wanted, then); !reason.empty()) {
-    // The new process has the new method from its start.
-    const std::string swapped = now->kind == then.kind ? reason_to_swap(*now, then) : "";
-    if (!swapped.empty()) reason += ", " + swapped;
-    return {ChangeAction::replace, label(then), reason + dropped_state(*now, then),
-            Graph(running).source_of(*now).name == Graph(wanted).source_of(then).name};
+    return replacement(running, *now, wanted, then, std::move(reason));
   }
   const std::string policy =
       now->restart == then.restart
@@ -181,6 +193,38 @@ Change change_of(const Deployment& running, const Deployment& wanted, const Serv
   }
   if (!policy.empty()) return {ChangeAction::adjust, label(then), policy};
   return {ChangeAction::keep, label(then), ""};
+}
+
+/// A process of several services cannot lose or gain one while it runs: where one of them is to be
+/// started, replaced or stopped, a new process takes over from the whole.
+void replace_whole_processes(const Deployment& running, const Deployment& wanted,
+                             const std::string& host, std::vector<Change>& changes) {
+  const auto config_in = [&](const Deployment& deployment, const Change& change) {
+    const ServiceConfig* service = find(deployment, change.service, host);
+    return service != nullptr && !service->process.empty() ? service : nullptr;
+  };
+  bool any = true;
+  while (any) {
+    any = false;
+    std::set<std::string> old_processes;
+    std::set<std::string> new_processes;
+    for (const Change& change : changes) {
+      const bool stays = change.action != ChangeAction::start &&
+                         change.action != ChangeAction::replace &&
+                         change.action != ChangeAction::stop;
+      if (stays) continue;
+      if (const auto* now = config_in(running, change)) old_processes.insert(now->process);
+      if (const auto* then = config_in(wanted, change)) new_processes.insert(then->process);
+    }
+    for (Change& change : changes) {
+      const ServiceConfig* now = config_in(running, change);
+      const ServiceConfig* then = config_in(wanted, change);
+      if (now == nullptr || then == nullptr || change.action == ChangeAction::replace) continue;
+      if (!old_processes.contains(now->process) && !new_processes.contains(then->process)) continue;
+      change = replacement(running, *now, wanted, *then, "with its process " + then->process);
+      any = true;
+    }
+  }
 }
 
 }  // namespace
@@ -246,21 +290,25 @@ Plan plan_changes(const Deployment& running, const Deployment& wanted, const std
   if (running.security != wanted.security) obstacle("security cannot be changed");
   for (const ServiceConfig& service : wanted.services) {
     if (service.host != host || !service.has_process()) continue;
-    const Change change = change_of(running, wanted, service);
-    // Of two writers of one strength the readers hear one, until that is gone.
-    if (change.action == ChangeAction::replace && service.strength) {
-      obstacle("service '" + change.service + "' has a strength, and cannot be replaced (" +
-               change.detail + ")");
-    }
-    if (claim_differs(running, service)) {
-      obstacle("strength and lease of service '" + service.name + "' cannot be changed");
-    }
-    plan.changes.push_back(change);
+    plan.changes.push_back(change_of(running, wanted, service));
   }
   for (const ServiceConfig& service : running.services) {
     if (service.host == host && service.has_process() &&
         find(wanted, label(service), host) == nullptr) {
       plan.changes.push_back({ChangeAction::stop, label(service), ""});
+    }
+  }
+  replace_whole_processes(running, wanted, host, plan.changes);
+  for (const Change& change : plan.changes) {
+    const ServiceConfig* service = find(wanted, change.service, host);
+    if (service == nullptr) continue;
+    // Of two writers of one strength the readers hear one, until that is gone.
+    if (change.action == ChangeAction::replace && service->strength) {
+      obstacle("service '" + change.service + "' has a strength, and cannot be replaced (" +
+               change.detail + ")");
+    }
+    if (claim_differs(running, *service)) {
+      obstacle("strength and lease of service '" + service->name + "' cannot be changed");
     }
   }
   return plan;

@@ -9,9 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
 
 namespace quoin::deploy {
 

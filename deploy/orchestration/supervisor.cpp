@@ -6,7 +6,7 @@
 #include <signal.h>
 #include <stdexcept>
 
-#include "services/deployment/exit_code.hpp"
+#include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
 
@@ -19,6 +19,10 @@ std::string seconds_text(milliseconds time) {
          " s";
 }
 }  // namespace
+
+bool ProcessPlan::runs(const std::string& service) const {
+  return std::ranges::find(services, service) != services.end();
+}
 
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
     : callbacks_(std::move(callbacks)) {
@@ -46,7 +50,8 @@ const Supervisor::Child& Supervisor::child(int key) const {
 const Supervisor::Child* Supervisor::find(const std::string& name) const {
   const Child* found = nullptr;
   for (const Child& candidate : children_) {
-    if (candidate.plan.name != name || candidate.standing == Standing::trial) continue;
+    const bool meant = candidate.plan.name == name || candidate.plan.runs(name);
+    if (!meant || candidate.standing == Standing::trial) continue;
     if (found == nullptr || found->standing == Standing::retired) found = &candidate;
   }
   return found;
@@ -83,9 +88,9 @@ void Supervisor::replan(ProcessPlan plan) {
   }
 }
 
-void Supervisor::retire(int key, bool terminate) {
+void Supervisor::retire(int key, bool terminate, std::size_t services) {
   Child& retired = child(key);
-  retired.never_adopted = retired.standing == Standing::trial;
+  retired.never_adopted = retired.never_adopted || retired.standing == Standing::trial;
   retired.standing = Standing::retired;
   retired.told_to_stop = true;
   if (!retired.process) {
@@ -93,7 +98,7 @@ void Supervisor::retire(int key, bool terminate) {
     return;
   }
   if (terminate) retired.process->send_signal(SIGTERM);
-  retired.kill_at = Clock::now() + patience;
+  retired.kill_at = Clock::now() + patience * static_cast<int>(std::max<std::size_t>(services, 1));
 }
 
 void Supervisor::kill(int key) {
@@ -123,7 +128,7 @@ void Supervisor::start() {
 
 void Supervisor::launch(Child& child) {
   std::vector<std::string> arguments = child.plan.arguments;
-  if (child.figures.restarts > 0 && callbacks_.was_active(child.plan.name)) {
+  if (child.figures.restarts > 0 && was_active(child)) {
     arguments.insert(arguments.end(), child.plan.again.begin(), child.plan.again.end());
   }
   child.process = std::make_unique<Process>(child.plan.program, arguments);
@@ -150,6 +155,11 @@ bool Supervisor::poll(milliseconds timeout, int extra_descriptor) {
   return extra_ready;
 }
 
+bool Supervisor::was_active(const Child& child) const {
+  if (child.plan.services.empty()) return callbacks_.was_active(child.plan.name);
+  return std::ranges::all_of(child.plan.services, callbacks_.was_active);
+}
+
 // What is known of them goes to the account of the process that took their place. One that never
 // had a place, or whose service is gone, leaves nothing but the latter's figures.
 void Supervisor::forget_the_retired() {
@@ -158,9 +168,11 @@ void Supervisor::forget_the_retired() {
     if (retired.standing != Standing::retired || retired.process) continue;
     if (retired.never_adopted) forgotten.insert(retired.key);
     for (Child& successor : children_) {
-      if (successor.standing != Standing::regular || successor.plan.name != retired.plan.name) {
-        continue;
-      }
+      const bool follows = successor.plan.name == retired.plan.name ||
+                           std::ranges::any_of(retired.plan.services, [&](const auto& service) {
+                             return successor.plan.runs(service);
+                           });
+      if (successor.standing != Standing::regular || !follows) continue;
       successor.figures.restarts += retired.figures.restarts;
       forgotten.insert(retired.key);
     }
@@ -179,7 +191,7 @@ void Supervisor::collect(Child& child) {
 }
 
 void Supervisor::judge(Child& child, const ProcessEnd& end) {
-  const bool was_active = !child.first || callbacks_.was_active(child.plan.name);
+  const bool proved = !child.first || was_active(child);
   child.first = false;
   // A process that was only just started has no handler for SIGTERM yet.
   if (child.standing == Standing::trial && !stopping_) {
@@ -203,7 +215,7 @@ void Supervisor::judge(Child& child, const ProcessEnd& end) {
   } else if (child.told_to_stop) {
     callbacks_.event(child.plan.name, "ended with " + describe(end) + " while stopping");
     fail(exit_failure);
-  } else if (end.exited_with(exit_configuration) && !was_active) {
+  } else if (end.exited_with(exit_configuration) && !proved) {
     callbacks_.event(child.plan.name, "cannot work with its configuration; stopping all");
     fail(exit_configuration);
     request_stop();

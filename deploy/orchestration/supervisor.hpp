@@ -21,7 +21,7 @@ namespace quoin::deploy {
 
 /// A process to keep alive.
 struct ProcessPlan {
-  std::string name;  ///< of the service
+  std::string name;  ///< of the process
   std::filesystem::path program;
   std::vector<std::string> arguments;
   int level = 0;  ///< distance from the source; level 0 is stopped first
@@ -29,6 +29,9 @@ struct ProcessPlan {
   bool restart = true;                       ///< start again when it dies
   std::chrono::milliseconds least_pause{0};  ///< before that
   std::vector<std::string> again = {};       ///< more arguments, once it has been active
+  std::vector<std::string> services = {};    ///< labels of those that run in it
+
+  [[nodiscard]] bool runs(const std::string& service) const;
 };
 
 enum class ProcessPhase {
@@ -82,8 +85,8 @@ class Supervisor {
   /// Another way to start the service's process from the next time on.
   void replan(ProcessPlan plan);
   /// The process is about to end, with or without SIGTERM from here; it is not started again, and
-  /// killed when it takes long.
-  void retire(int key, bool terminate);
+  /// killed when it takes long: five seconds for each of `services`.
+  void retire(int key, bool terminate, std::size_t services = 1);
   /// SIGKILL.
   void kill(int key);
   [[nodiscard]] bool running(int key) const;
@@ -91,7 +94,8 @@ class Supervisor {
   [[nodiscard]] const ProcessPlan& plan(int key) const { return child(key).plan; }
   /// How a process on trial ended; nothing while it runs.
   [[nodiscard]] std::optional<ProcessEnd> end_of_trial(int key) const;
-  /// The process that does the work of a service; nothing when there is no such service.
+  /// The process that does the work of a service, or is called like that; nothing when there is
+  /// none.
   [[nodiscard]] std::optional<int> key_of(const std::string& name) const;
 
   /// No process is left and none will be started.
@@ -131,6 +135,7 @@ class Supervisor {
   [[nodiscard]] Child& child(int key);
   [[nodiscard]] const Child& child(int key) const;
   [[nodiscard]] const Child* find(const std::string& name) const;
+  [[nodiscard]] bool was_active(const Child& child) const;
   void forget_the_retired();
   void kill_the_late(Clock::time_point now);
   void launch(Child& child);

@@ -3,7 +3,11 @@
 #include "sensor_bridge/replay/kind.hpp"
 #include "sensor_bridge/replay/replay_source.hpp"
 
-int main(int argc, char** argv) {
-  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::replay_kind(),
-                                    quoin::sensor_bridge::open_replay);
-}
+using namespace quoin;
+
+namespace {
+
+const runtime::Registration registration(runtime::source_component(sensor_bridge::replay_kind(),
+                                                                   sensor_bridge::open_replay));
+
+}  // namespace

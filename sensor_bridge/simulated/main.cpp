@@ -3,7 +3,11 @@
 #include "sensor_bridge/simulated/kind.hpp"
 #include "sensor_bridge/simulated/simulated_source.hpp"
 
-int main(int argc, char** argv) {
-  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::simulated_kind(),
-                                    quoin::sensor_bridge::open_simulated);
-}
+using namespace quoin;
+
+namespace {
+
+const runtime::Registration registration(runtime::source_component(sensor_bridge::simulated_kind(),
+                                                                   sensor_bridge::open_simulated));
+
+}  // namespace

@@ -18,7 +18,7 @@ struct Workspace {
   std::vector<Corner> corners;
 };
 
-runtime::Process<msg::Lines, msg::Corners> make(const std::string& method,
+runtime::Handler<msg::Lines, msg::Corners> make(const std::string& method,
                                                 const ParameterSettings& parameters) {
   auto work = std::make_shared<Workspace>();
   work->find = CornerFinders::make<CornerFinder>(method, parameters);
@@ -30,8 +30,7 @@ runtime::Process<msg::Lines, msg::Corners> make(const std::string& method,
   };
 }
 
-}  // namespace
+const runtime::Registration registration(
+    runtime::stage_component<msg::Lines, msg::Corners>(corner_estimation_kind(), make));
 
-int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Lines, msg::Corners>(argc, argv, corner_estimation_kind(), make);
-}
+}  // namespace

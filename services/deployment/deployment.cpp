@@ -24,6 +24,28 @@ std::string label(const ServiceConfig& service) {
   return service.strength ? service.name + "@" + std::to_string(*service.strength) : service.name;
 }
 
+std::string process_name(const ServiceConfig& service) {
+  return service.process.empty() ? label(service) : service.process;
+}
+
+std::vector<ProcessConfig> processes_of(const Deployment& deployment) {
+  std::vector<ProcessConfig> processes;
+  for (const ServiceConfig& service : deployment.services) {
+    if (!service.has_process()) continue;
+    const std::string name = process_name(service);
+    auto process = std::ranges::find(processes, name, &ProcessConfig::name);
+    if (process == processes.end()) process = processes.insert(process, {name, {}});
+    process->services.push_back(&service);
+  }
+  return processes;
+}
+
+bool share_memory(const ServiceConfig& writer, const ServiceConfig& reader) {
+  const bool observer = reader.info != nullptr && reader.info->observer;
+  return !writer.process.empty() && writer.process == reader.process && !writer.strength &&
+         !observer;
+}
+
 const ServiceConfig& Deployment::service(std::string_view name) const {
   const auto found = std::find_if(services.begin(), services.end(), [&](const ServiceConfig& s) {
     return s.name == name || label(s) == name;

@@ -113,7 +113,8 @@ struct ServiceConfig {
   std::string qos;  ///< preset that the file asks for; "" when each type has its default
   ParameterSettings parameters;  ///< validated against the method or kind
   RestartPolicy restart = RestartPolicy::always;
-  std::string host;  ///< where it runs; "" when the deployment names no hosts
+  std::string host;     ///< where it runs; "" when the deployment names no hosts
+  std::string process;  ///< of `processes:` that it runs in; "" when it has one of its own
   /// Of this instance's claim to the output, when there are several of one name; the strongest that
   /// lives is heard.
   std::optional<int> strength;
@@ -151,6 +152,22 @@ struct Deployment {
 /// What tells an instance of a service from all others: the name, or name@strength where there is
 /// a strength.
 [[nodiscard]] std::string label(const ServiceConfig& service);
+
+/// What tells the process of a service from all others: its name in `processes:`, or the label of
+/// the service where it has one of its own.
+[[nodiscard]] std::string process_name(const ServiceConfig& service);
+
+/// A process, and the services that run in it in the order of the deployment.
+struct ProcessConfig {
+  std::string name;
+  std::vector<const ServiceConfig*> services;
+};
+/// All that run, on whatever host, in the order of their first services. Refers to the deployment.
+[[nodiscard]] std::vector<ProcessConfig> processes_of(const Deployment& deployment);
+
+/// Whether `reader` gets the messages of `writer` inside the process that both run in. Those of a
+/// service with several instances go by DDS, which decides between them.
+[[nodiscard]] bool share_memory(const ServiceConfig& writer, const ServiceConfig& reader);
 
 /// One or more things wrong with a deployment file, each as "file:line:column: what; what to do",
 /// joined by line feeds in what().
@@ -202,5 +219,13 @@ class DeploymentError : public std::runtime_error {
 /// What control requests to the supervisor of a host's share are addressed to; no service is called
 /// so.
 [[nodiscard]] std::string supervisor_name(std::string_view host);
+
+/// Exit codes of all programs: what the supervisor concludes from them, the services must mean.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_failure = 1,
+  exit_configuration = 2,  ///< wrong usage or configuration: starting again does not help
+  exit_input = 3,          ///< the input of a source is unusable
+};
 
 }  // namespace quoin

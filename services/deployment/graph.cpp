@@ -3,6 +3,7 @@
 #include "services/deployment/graph.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "services/topics/topic_types.hpp"
@@ -155,6 +156,12 @@ std::vector<Connection> Graph::path_to(const ServiceConfig& service,
 int Graph::level(const ServiceConfig& service) const {
   const auto known = levels_.find(service.name);
   return known == levels_.end() ? 0 : known->second;
+}
+
+int Graph::level(const ProcessConfig& process) const {
+  int lowest = std::numeric_limits<int>::max();
+  for (const ServiceConfig* service : process.services) lowest = std::min(lowest, level(*service));
+  return lowest;
 }
 
 std::vector<Connection> Graph::ends() const {

@@ -53,6 +53,8 @@ class Graph {
                                                 const OutputConfig& output) const;
   /// The longest way from a source, whose level is 0. Observers come behind all others.
   [[nodiscard]] int level(const ServiceConfig& service) const;
+  /// Of the first of its services.
+  [[nodiscard]] int level(const ProcessConfig& process) const;
   /// Outputs that no service but observers reads, each with its writer; of instances the strongest.
   [[nodiscard]] std::vector<Connection> ends() const;
 

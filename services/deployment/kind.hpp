@@ -46,6 +46,7 @@ struct KindInfo {
   bool observer = false;  ///< reads all outputs of the services named in `inputs:`, of any type
   bool exclusive =
       false;  ///< holds something of which there is one: ends before its successor begins
+  std::string device = {};  ///< parameter that names what only one service at a time can use
   std::vector<MethodInfo> methods = {};  ///< empty for kinds without methods
   std::vector<ParameterInfo> parameters =
       {};  ///< of the kind itself; empty where methods have them

@@ -7,6 +7,7 @@
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/network_entries.hpp"
 #include "services/deployment/problems.hpp"
+#include "services/deployment/process_entries.hpp"
 #include "services/deployment/service_entries.hpp"
 #include "services/deployment/wiring.hpp"
 #include "services/deployment/yaml_entries.hpp"
@@ -43,7 +44,7 @@ class Reader {
       return;
     }
     deployment_.name_space = "quoin";
-    std::optional<Entry> version, services, security;
+    std::optional<Entry> version, services, processes, security;
     // The preset for all must be known before the services are read, wherever it is written.
     for (const Entry& entry : entries_of(root, "the deployment", problems_)) {
       if (entry.key == "version") {
@@ -61,11 +62,13 @@ class Reader {
         deployment_.security = read_security(entry, deployment_.file.parent_path(), problems_);
       } else if (entry.key == "services") {
         services = entry;
+      } else if (entry.key == "processes") {
+        processes = entry;
       } else {
         problems_.add(entry.key_at,
                       "unknown key '" + entry.key + "' of the deployment" +
                           suggestion(entry.key, {"version", "namespace", "domain", "qos", "network",
-                                                 "security", "services"}));
+                                                 "security", "services", "processes"}));
       }
     }
     if (security && deployment_.network.discovery != Discovery::peers) {
@@ -85,6 +88,7 @@ class Reader {
     } else {
       read_services(*services);
     }
+    if (processes) read_processes(*processes, drafts_, problems_);
   }
 
   void read_namespace(const Entry& entry) {

@@ -85,12 +85,19 @@ TopicRule rule_of(const Deployment& deployment, const std::string& identity) {
     rule.writes = {request, reply};
     return rule;
   }
-  const ServiceConfig& service = deployment.service(identity);
-  for (const OutputConfig& output : service.outputs) rule.writes.push_back(output.topic);
-  rule.writes.insert(rule.writes.end(), {status, reply});
-  for (const Connection& input : Graph(deployment).inputs_of(service)) {
-    rule.reads.push_back(input.output.topic);
+  const std::vector<ProcessConfig> processes = processes_of(deployment);
+  const auto process = std::ranges::find(processes, identity, &ProcessConfig::name);
+  if (process == processes.end()) {
+    throw std::out_of_range(deployment.file.string() + ": no process '" + identity + "'");
   }
+  std::set<std::string> reads;
+  const Graph graph(deployment);
+  for (const ServiceConfig* service : process->services) {
+    for (const OutputConfig& output : service->outputs) rule.writes.push_back(output.topic);
+    for (const Connection& input : graph.inputs_of(*service)) reads.insert(input.output.topic);
+  }
+  rule.writes.insert(rule.writes.end(), {status, reply});
+  rule.reads.assign(reads.begin(), reads.end());
   rule.reads.push_back(request);
   return rule;
 }

@@ -23,10 +23,10 @@ struct TopicRule {
   friend bool operator==(const TopicRule&, const TopicRule&) = default;
 };
 
-/// What `identity` may do in the deployment: a service writes its own output, heartbeats and
-/// replies, and reads its input and requests; the operator writes requests and reads everything;
-/// the observer reads results and heartbeats. Throws std::out_of_range when the deployment has no
-/// such service.
+/// What `identity` may do in the deployment: a process writes the outputs of its services,
+/// heartbeats and replies, and reads their inputs and requests; the operator writes requests and
+/// reads everything; the observer reads results and heartbeats. Throws std::out_of_range when the
+/// deployment has no such process.
 [[nodiscard]] TopicRule rule_of(const Deployment& deployment, const std::string& identity);
 
 /// The permissions document of DDS Security 1.1; everything else is denied.

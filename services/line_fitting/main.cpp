@@ -13,7 +13,7 @@ using namespace quoin;
 
 namespace {
 
-runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
+runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
                                                  const ParameterSettings& parameters) {
   const auto fit = Fitters::make<Fitter>(method, parameters);
   const std::string mode = Fitters::setting(method, parameters, "covariance");
@@ -40,8 +40,7 @@ runtime::Process<msg::Segments, msg::Lines> make(const std::string& method,
   };
 }
 
-}  // namespace
+const runtime::Registration registration(
+    runtime::stage_component<msg::Segments, msg::Lines>(line_fitting_kind(), make));
 
-int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Segments, msg::Lines>(argc, argv, line_fitting_kind(), make);
-}
+}  // namespace

@@ -17,7 +17,7 @@ struct Workspace {
   std::vector<Segment> segments;
 };
 
-runtime::Process<msg::Scan, msg::Segments> make(const std::string& method,
+runtime::Handler<msg::Scan, msg::Segments> make(const std::string& method,
                                                 const ParameterSettings& parameters) {
   auto work = std::make_shared<Workspace>();
   work->segment = Segmenters::make<Segmenter>(method, parameters);
@@ -29,8 +29,7 @@ runtime::Process<msg::Scan, msg::Segments> make(const std::string& method,
   };
 }
 
-}  // namespace
+const runtime::Registration registration(
+    runtime::stage_component<msg::Scan, msg::Segments>(segmentation_kind(), make));
 
-int main(int argc, char** argv) {
-  return runtime::run_stage<msg::Scan, msg::Segments>(argc, argv, segmentation_kind(), make);
-}
+}  // namespace

@@ -25,15 +25,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/simulation/scanner.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/node/clock.hpp"
-#include "services/topics/header.hpp"
-#include "services/topics/segments.hpp"
 #include "tests/benchmarks/bare_endpoint.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"
+#include "tests/benchmarks/room_scans.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -43,33 +40,6 @@ using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
 namespace {
-
-/// Twenty different revolutions of a 920-point sensor in the domestic room.
-std::vector<msg::Scan> make_scans() {
-  SimulatedScanner scanner(
-      *built_in_world("domestic_room"),
-      [] {
-        ScannerSettings settings;
-        settings.noise = SensorModel{};
-        return settings;
-      }(),
-      1);
-  std::vector<msg::Scan> scans(20);
-  SimulatedScan simulated;
-  for (msg::Scan& scan : scans) {
-    scanner.scan(0.0, 0.0, simulated);
-    scan.bearings(simulated.bearings);
-    scan.ranges(simulated.ranges);
-    scan.range_min(0.1F);
-    scan.range_max(40.0F);
-    scan.sensor_model(topics::sensor_model_message(SensorModel{}));
-    scan.header().frame("laser");
-    scan.header().trace().resize(1);
-    scan.header().trace()[0].service("front");
-    scan.header().trace()[0].incarnation(1);
-  }
-  return scans;
-}
 
 /// What one chain did.
 struct ChainResult {
@@ -116,10 +86,7 @@ class ServiceChain {
 
   void send() {
     msg::Scan& scan = scans_[next_ % scans_.size()];
-    topics::set_origin(scan.header(), "front", 1, next_);
-    msg::StageTrace& trace = scan.header().trace()[0];
-    trace.index(next_++);
-    trace.published(runtime::now_ns());
+    number(scan, next_++);
     while (!writer_.write(scan)) {
     }
   }

@@ -23,7 +23,7 @@
 
 #include "sensor_bridge/rplidar/emulator/emulated_device.hpp"
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
-#include "services/runtime/dds/reader.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/node/clock.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/benchmarks/process_usage.hpp"

@@ -14,7 +14,7 @@ case "${1-}" in
   --json) format=json ;;
   *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
 esac
-for program in extraction_benchmark chain_benchmark side_by_side_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark; do
+for program in extraction_benchmark chain_benchmark side_by_side_benchmark composed_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark; do
   if [[ ! -x $bin/$program ]]; then
     echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
     exit 2
@@ -29,6 +29,7 @@ echo "extraction: one thread, 920 points" >&2
 "$bin/chain_benchmark" --extraction "$work/extraction.json" --format "$format"
 if [[ $format == table ]]; then
   "$bin/side_by_side_benchmark"
+  "$bin/composed_benchmark"
   echo "RPLIDAR decoder and bridge" >&2
   "$bin/rplidar_decoder_benchmark"
   "$bin/rplidar_bridge_benchmark"

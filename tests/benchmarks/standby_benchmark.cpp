@@ -19,8 +19,8 @@
 #include <nlohmann/json.hpp>
 
 #include "services/runtime/accounting/accounting.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 #include "services/topics/header.hpp"
 #include "tests/benchmarks/figures.hpp"
 #include "tests/integration/harness/deployment.hpp"

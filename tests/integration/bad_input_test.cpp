@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/node/clock.hpp"
 #include "services/topics/header.hpp"
 #include "tests/integration/harness/deployment.hpp"

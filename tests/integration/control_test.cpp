@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/topics/header.hpp"
 #include "tests/integration/harness/deployment.hpp"
 

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/integration/harness/hosts.hpp"
 #include "tests/integration/harness/keys.hpp"

@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
 #include "tests/integration/harness/deployment.hpp"
@@ -94,14 +94,15 @@ TEST(Notify, AStageWhoseMethodHangsIsNotReportedAlive) {
     std::vector<std::string> words{"test", "--deployment", file, "--service", "walls"};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
-    const int exit_code = runtime::run_stage<msg::Scan, msg::Segments>(
-        static_cast<int>(arguments.size()), arguments.data(), segmentation_kind(),
-        [&](const std::string&, const ParameterSettings&) {
-          return [&](const msg::Scan&, msg::Segments&) -> std::size_t {
-            obstacle.meet();
-            return 0;
-          };
-        });
+    const int exit_code = runtime::run_process(
+        static_cast<int>(arguments.size()), arguments.data(),
+        {runtime::stage_component<msg::Scan, msg::Segments>(
+            segmentation_kind(), [&](const std::string&, const ParameterSettings&) {
+              return [&](const msg::Scan&, msg::Segments&) -> std::size_t {
+                obstacle.meet();
+                return 0;
+              };
+            })});
     EXPECT_EQ(exit_code, 0);
   });
   EXPECT_EQ(socket.next("READY=1"), "READY=1");

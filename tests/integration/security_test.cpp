@@ -10,8 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/topics/header.hpp"
 #include "tests/integration/harness/keys.hpp"
 

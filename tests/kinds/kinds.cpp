@@ -7,6 +7,7 @@
 #include "services/corner_estimation/kind.hpp"
 #include "services/line_fitting/kind.hpp"
 #include "services/segmentation/kind.hpp"
+#include "tests/kinds/faulty/kind.hpp"
 #include "tests/kinds/join/kind.hpp"
 #include "tests/kinds/latest/kind.hpp"
 #include "tests/kinds/observer/kind.hpp"
@@ -22,8 +23,10 @@ const KindList& kinds() {
                              &tests::odometer_kind(), &segmentation_kind(), &line_fitting_kind(),
                              &corner_estimation_kind(), &tests::join_kind(), &tests::latest_kind(),
                              &tests::own_rate_kind(), &tests::sink_kind(), &tests::observer_kind(),
-                             &external_kind()}};
+                             &tests::faulty_kind(), &external_kind()}};
   return all;
 }
+
+const char* process_program() { return "quoin-test-process"; }
 
 }  // namespace quoin::deploy

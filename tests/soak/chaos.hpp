@@ -16,8 +16,7 @@
 #include <sys/types.h>
 #include <vector>
 
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/soak/composition.hpp"
 

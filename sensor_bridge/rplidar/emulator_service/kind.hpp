@@ -14,6 +14,7 @@ namespace quoin::sensor_bridge::rplidar {
           "an RPLIDAR S1 without hardware, for a service of kind rplidar or any other client",
       .program = "quoin-rplidar-emulator-service",
       .exclusive = true,
+      .device = "link",
       .parameters = describe_parameters<EmulatorSettings>()};
   return kind;
 }

@@ -12,6 +12,7 @@ namespace quoin::sensor_bridge::rplidar {
                              .description = "scans of an RPLIDAR on a serial port, TCP or UDP",
                              .program = "quoin-rplidar",
                              .outputs = {{"scan"}},
+                             .device = "serial_port",
                              .parameters = describe_parameters<RplidarParameters>()};
   return kind;
 }

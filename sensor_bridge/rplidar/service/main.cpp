@@ -3,7 +3,11 @@
 #include "sensor_bridge/rplidar/service/kind.hpp"
 #include "sensor_bridge/rplidar/service/rplidar_source.hpp"
 
-int main(int argc, char** argv) {
-  return quoin::runtime::run_source(argc, argv, quoin::sensor_bridge::rplidar::rplidar_kind(),
-                                    quoin::sensor_bridge::rplidar::open_rplidar);
-}
+using namespace quoin;
+
+namespace {
+
+const runtime::Registration registration(runtime::source_component(
+    sensor_bridge::rplidar::rplidar_kind(), sensor_bridge::rplidar::open_rplidar));
+
+}  // namespace

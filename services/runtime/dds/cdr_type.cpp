@@ -11,7 +11,7 @@
 #include <fastdds/rtps/common/SerializedPayload.h>
 #include <fastrtps/utils/md5.h>
 
-#include "services/runtime/dds/endpoints_impl.hpp"
+#include "services/runtime/dds/entities.hpp"
 
 namespace quoin::runtime {
 

@@ -7,8 +7,8 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include "services/runtime/dds/entities.hpp"
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/dds/qos_impl.hpp"
 
 namespace quoin::runtime {
 

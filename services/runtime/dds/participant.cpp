@@ -10,11 +10,9 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
-#include "services/keys/key_check.hpp"
-#include "services/runtime/dds/endpoints_impl.hpp"
+#include "services/keys/key_files.hpp"
+#include "services/runtime/dds/entities.hpp"
 #include "services/runtime/dds/interfaces.hpp"
-#include "services/runtime/dds/participant_impl.hpp"
-#include "services/runtime/dds/qos_impl.hpp"
 #include "services/runtime/dds/security.hpp"
 
 namespace quoin::runtime {

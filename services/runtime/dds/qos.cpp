@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "services/runtime/dds/qos_impl.hpp"
+#include "services/runtime/dds/entities.hpp"
 
 namespace quoin::runtime {
 
@@ -45,7 +45,9 @@ constexpr int lossless_samples = 256;
 // minutes that is replayed at full speed. With 32, one of 5000 scans lost a third to two thirds.
 constexpr int observer_samples = 4096;
 
-int depth(QosPreset preset) {
+}  // namespace
+
+int history_depth(QosPreset preset) {
   switch (preset) {
     case QosPreset::sensor:
       return 5;
@@ -64,12 +66,14 @@ int depth(QosPreset preset) {
   return lossless_samples;
 }
 
+namespace {
+
 // The policies that writer and reader share.
 template <class Qos>
 Qos common_qos(Qos qos, const TopicQos& topic) {
   const QosPreset preset = topic.preset;
   const bool keyed = preset == QosPreset::state;
-  const int samples = depth(preset);
+  const int samples = history_depth(preset);
   qos.reliability().kind = preset == QosPreset::best_effort ? dds::BEST_EFFORT_RELIABILITY_QOS
                                                             : dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = Duration_t(1, 0);

@@ -37,6 +37,9 @@ struct TopicQos {
   TopicQos(QosPreset preset_of_topic) : preset(preset_of_topic) {}
 };
 
+/// How many messages a reader of that preset may be behind.
+[[nodiscard]] int history_depth(QosPreset preset);
+
 /// Of an output of `service`, for its writer and for its readers.
 [[nodiscard]] TopicQos output_qos(const ServiceConfig& service, const OutputConfig& output);
 

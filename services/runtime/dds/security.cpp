@@ -15,7 +15,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 
 namespace quoin::runtime {

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/deployment/deployment.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
+#include "services/runtime/node/local_topics.hpp"
 #include "services/runtime/node/ports.hpp"
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/header.hpp"
@@ -49,19 +50,37 @@ class StrangerNumbers {
   std::string service_;
 };
 
-/// Messages that nobody keeps any more give their memory to later ones.
+/// Messages that come back, from any thread, when nobody keeps them any more, and give their memory
+/// to later ones.
 template <class T>
-class MessagePlaces {
+class MessagePool {
  public:
-  [[nodiscard]] const std::shared_ptr<T>& free() {
-    for (const std::shared_ptr<T>& place : places_) {
-      if (place.use_count() == 1) return place;
-    }
-    return places_.emplace_back(std::make_shared<T>());
+  [[nodiscard]] std::shared_ptr<T> take() {
+    std::unique_ptr<T> message = free_->take();
+    if (!message) message = std::make_unique<T>();
+    return {message.release(), [free = free_](T* back) { free->give(std::unique_ptr<T>(back)); }};
   }
 
  private:
-  std::vector<std::shared_ptr<T>> places_;
+  class Free {
+   public:
+    std::unique_ptr<T> take() {
+      const std::lock_guard lock(mutex_);
+      if (messages_.empty()) return nullptr;
+      std::unique_ptr<T> message = std::move(messages_.back());
+      messages_.pop_back();
+      return message;
+    }
+    void give(std::unique_ptr<T> message) {
+      const std::lock_guard lock(mutex_);
+      messages_.push_back(std::move(message));
+    }
+
+   private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<T>> messages_;
+  };
+  std::shared_ptr<Free> free_ = std::make_shared<Free>();
 };
 
 /// Messages that DDS brings.
@@ -76,10 +95,11 @@ class ReaderInput final : public Input {
   }
 
   [[nodiscard]] std::optional<Message> take() override {
-    const std::shared_ptr<T>& free = places_.free();
-    if (!reader_.take(*free)) return std::nullopt;
-    if (numbers_) numbers_->number(reader_.last_sample(), free->header());
-    return Message{free, &typeid(T), &free->header()};
+    if (!next_) next_ = pool_.take();
+    if (!reader_.take(*next_)) return std::nullopt;
+    msg::Header& header = next_->header();
+    if (numbers_) numbers_->number(reader_.last_sample(), header);
+    return Message{std::exchange(next_, nullptr), &typeid(T), &header};
   }
   [[nodiscard]] std::size_t matched() const override { return reader_.matched(); }
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
@@ -90,7 +110,8 @@ class ReaderInput final : public Input {
  private:
   Reader<T> reader_;
   std::optional<StrangerNumbers> numbers_;
-  MessagePlaces<T> places_;
+  MessagePool<T> pool_;
+  std::shared_ptr<T> next_;  // to fill
 };
 
 /// What an observer gets: a message of any type as it was sent, and its header.
@@ -115,13 +136,14 @@ class ObservedInput final : public Input {
   }
 
   [[nodiscard]] std::optional<Message> take() override {
-    const std::shared_ptr<ObservedMessage>& free = places_.free();
-    while (reader_.take(free->raw)) {
-      if (!topics::read_header(free->raw, free->header)) continue;
-      if (numbers_) numbers_->number(reader_.last_sample(), free->header);
-      free->type = type_;
-      free->topic = topic_;
-      return Message{free, &typeid(ObservedMessage), &free->header};
+    if (!next_) next_ = pool_.take();
+    while (reader_.take(next_->raw)) {
+      msg::Header& header = next_->header;
+      if (!topics::read_header(next_->raw, header)) continue;
+      if (numbers_) numbers_->number(reader_.last_sample(), header);
+      next_->type = type_;
+      next_->topic = topic_;
+      return Message{std::exchange(next_, nullptr), &typeid(ObservedMessage), &header};
     }
     return std::nullopt;
   }
@@ -136,22 +158,42 @@ class ObservedInput final : public Input {
   std::string topic_;
   RawReader reader_;
   std::optional<StrangerNumbers> numbers_;
-  MessagePlaces<ObservedMessage> places_;
+  MessagePool<ObservedMessage> pool_;
+  std::shared_ptr<ObservedMessage> next_;  // to fill
 };
 
-/// Messages that DDS takes.
+/// Messages that DDS takes and, in a process of several nodes, those beside this one.
 template <class T>
 class WriterOutput final : public Output {
  public:
-  WriterOutput(Participant& participant, const std::string& topic, const TopicQos& qos)
-      : writer_(participant, topic, qos) {}
+  /// `neighbours`: null in a process of one node.
+  WriterOutput(Participant& participant, const std::string& topic, const TopicQos& qos,
+               std::shared_ptr<LocalTopic> neighbours)
+      : writer_(participant, topic, qos),
+        // A late reader wants the newest message.
+        always_(qos.preset == QosPreset::state),
+        neighbours_(std::move(neighbours)) {}
+  ~WriterOutput() override {
+    if (neighbours_) neighbours_->close();
+  }
+  WriterOutput(const WriterOutput&) = delete;
+  WriterOutput& operator=(const WriterOutput&) = delete;
 
   [[nodiscard]] const std::type_info& type() const override { return typeid(T); }
   [[nodiscard]] void* message() override { return current_; }
   void use(void* message) override { current_ = static_cast<T*>(message); }
   [[nodiscard]] msg::Header& header() override { return current_->header(); }
-  [[nodiscard]] bool write() override { return writer_.write(*current_); }
-  [[nodiscard]] std::size_t matched() const override { return writer_.matched(); }
+  /// DDS gets the message only when somebody outside the process reads it.
+  [[nodiscard]] bool write() override {
+    if (!neighbours_) return writer_.write(*current_);
+    if (!neighbours_->wait_for_room(longest_wait_for_neighbours)) return false;
+    if ((always_ || writer_.matched() > 0) && !writer_.write(*current_)) return false;
+    if (!neighbours_->empty()) hand_over();
+    return true;
+  }
+  [[nodiscard]] std::size_t matched() const override {
+    return writer_.matched() + (neighbours_ ? neighbours_->readers() : 0);
+  }
   bool wait_for_acknowledgments(std::chrono::milliseconds timeout) override {
     return writer_.wait_for_acknowledgments(timeout);
   }
@@ -160,16 +202,35 @@ class WriterOutput final : public Output {
     return writer_.awaited_observers();
   }
   [[nodiscard]] std::vector<std::string> check_silent_readers() override {
-    return writer_.check_silent_readers();
+    std::vector<std::string> silent = writer_.check_silent_readers();
+    if (neighbours_) {
+      for (std::string& reader : neighbours_->full_readers()) silent.push_back(std::move(reader));
+    }
+    return silent;
   }
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
     return writer_.incompatible_qos();
   }
 
  private:
+  // As DDS waits for its readers.
+  static constexpr std::chrono::milliseconds longest_wait_for_neighbours{1000};
+
+  /// The message is theirs from now on, unless it is somebody else's.
+  void hand_over() {
+    const bool own = current_ == own_.get();
+    if (!own) *own_ = *current_;
+    const std::shared_ptr<T> message = std::exchange(own_, pool_.take());
+    if (own) current_ = own_.get();
+    neighbours_->publish({message, &typeid(T), &message->header()});
+  }
+
   Writer<T> writer_;
-  T own_;
-  T* current_ = &own_;
+  const bool always_;
+  const std::shared_ptr<LocalTopic> neighbours_;
+  MessagePool<T> pool_;
+  std::shared_ptr<T> own_ = pool_.take();
+  T* current_ = own_.get();
 };
 
 /// An input with what a wait set waits for.
@@ -181,7 +242,7 @@ struct DdsInput {
 using MakeInput = DdsInput (*)(Participant&, const std::string& topic, const TopicQos&,
                                const std::string& stranger);
 using MakeOutput = std::unique_ptr<Output> (*)(Participant&, const std::string& topic,
-                                               const TopicQos&);
+                                               const TopicQos&, std::shared_ptr<LocalTopic>);
 
 /// The message types of a kind's ports, in their order.
 struct PortTypes {
@@ -202,9 +263,10 @@ template <class... In, class... Out>
             ReaderBase* reader = &input->reader();
             return DdsInput{std::move(input), reader};
           }...},
-          {+[](Participant& participant, const std::string& topic,
-               const TopicQos& qos) -> std::unique_ptr<Output> {
-            return std::make_unique<WriterOutput<Out>>(participant, topic, qos);
+          {+[](Participant& participant, const std::string& topic, const TopicQos& qos,
+               std::shared_ptr<LocalTopic> neighbours) -> std::unique_ptr<Output> {
+            return std::make_unique<WriterOutput<Out>>(participant, topic, qos,
+                                                       std::move(neighbours));
           }...}};
 }
 

@@ -12,9 +12,7 @@
 
 #include "services/deployment/kind.hpp"
 #include "services/runtime/accounting/accounting.hpp"
-#include "services/runtime/node/delivery.hpp"
 #include "services/runtime/node/method_exchange.hpp"
-#include "services/runtime/node/partners.hpp"
 #include "services/runtime/node/ports.hpp"
 #include "services/runtime/node/succession.hpp"
 

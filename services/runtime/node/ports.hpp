@@ -4,12 +4,17 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
 #include <idl/Common.h>
 #include <memory>
 #include <optional>
 #include <string>
 #include <typeinfo>
 #include <vector>
+
+#include "services/runtime/node/service_record.hpp"
 
 namespace quoin::runtime {
 
@@ -63,5 +68,51 @@ class Output {
   [[nodiscard]] virtual std::vector<std::string> check_silent_readers() { return {}; }
   [[nodiscard]] virtual std::vector<std::string> incompatible_qos() const { return {}; }
 };
+
+/// The messages of a `latest` or `by_time` port that may still be wanted, in the order of their
+/// stamps, in whatever order they came.
+class Partners {
+ public:
+  /// Older ones of the same stamp give way.
+  void add(Message message);
+
+  /// The newest; null when there is none.
+  [[nodiscard]] const Message* latest() const;
+  /// The newest that is not younger than `stamp` [ns]; null when there is none.
+  [[nodiscard]] const Message* before(std::int64_t stamp) const;
+  /// The oldest that is not older; null when there is none.
+  [[nodiscard]] const Message* after(std::int64_t stamp) const;
+  /// What is asked for from now on is not older than that.
+  void forget_before(std::int64_t stamp);
+  /// Only the newest will be asked for.
+  void keep_latest();
+  [[nodiscard]] std::size_t size() const { return messages_.size(); }
+
+ private:
+  std::deque<Message> messages_;
+};
+
+/// How long the end of a service may wait: for room in a full history once the stop is requested,
+/// and for the last results to be acknowledged. With a write that was under way and the last
+/// heartbeat it is less than the five seconds after which `quoin up` kills.
+inline constexpr std::chrono::seconds longest_wait_for_room{1};
+inline constexpr std::chrono::seconds longest_wait_for_acknowledgments{2};
+
+/// What the thread that data passes through works with.
+struct DataThread {
+  ServiceRecord& record;
+  Pulse& pulse;                    ///< alive while it waits for readers
+  std::function<bool()> stopping;  ///< whether the service was asked to stop
+  /// The clock by which is waited.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
+};
+
+/// Stamps `trace` (which is part of the output's message) and writes the message. With the lossless
+/// preset the write is tried again while slow readers keep the history full, until
+/// longest_wait_for_room after the stop is requested; readers that are dead are dropped meanwhile,
+/// and the record says who keeps it waiting. Otherwise it never waits. False when the message was
+/// not written.
+[[nodiscard]] bool deliver(Output& output, msg::StageTrace& trace, bool lossless,
+                           DataThread& thread);
 
 }  // namespace quoin::runtime

@@ -55,8 +55,7 @@ void ServiceRecord::set_state(msg::ServiceState state, const std::string& detail
   const std::lock_guard lock(mutex_);
   status_.state(state);
   status_.detail(detail);
-  changed_state_ = true;
-  changed_.notify_all();
+  if (on_change_) on_change_();
 }
 
 void ServiceRecord::set_detail(const std::string& detail) {
@@ -158,25 +157,13 @@ void ServiceRecord::count_result(std::int64_t scan_published, std::int64_t recei
   processing_.add(seconds(received, published));
 }
 
-void ServiceRecord::wait_for_change(std::chrono::milliseconds timeout) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [this] { return closed_ || changed_state_; });
-}
-
-void ServiceRecord::close() {
+void ServiceRecord::on_change(std::function<void()> callback) {
   const std::lock_guard lock(mutex_);
-  closed_ = true;
-  changed_.notify_all();
-}
-
-bool ServiceRecord::closed() const {
-  const std::lock_guard lock(mutex_);
-  return closed_;
+  on_change_ = std::move(callback);
 }
 
 msg::ServiceStatus ServiceRecord::snapshot() {
   const std::lock_guard lock(mutex_);
-  changed_state_ = false;
   const std::int64_t now = now_ns();
   const double elapsed = seconds(rate_since_, now);
   if (elapsed >= 0.5) {  // heartbeats at changes of state come too close for a rate

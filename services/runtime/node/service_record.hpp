@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,6 +26,29 @@ enum class LossCause {
 
 /// "starting", "active", ...
 [[nodiscard]] std::string state_name(msg::ServiceState state);
+
+/// Sign of life of the one thread that data passes through. It says when it will be heard of again;
+/// another thread asks whether it was. Costs a look at the clock and a store.
+class Pulse {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Something was done, and the next thing begins.
+  void beat() { due(Clock::now()); }
+  /// There is nothing to do before `time`.
+  void wait_until(Clock::time_point time) { due(std::max(time, Clock::now())); }
+  /// Whether the thread is overdue by no more than `allowance`. Before its first beat it is not.
+  [[nodiscard]] bool alive(Clock::time_point now, Clock::duration allowance) const {
+    return (now - allowance).time_since_epoch().count() <= due_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  void due(Clock::time_point time) {
+    due_.store(time.time_since_epoch().count(), std::memory_order_relaxed);
+  }
+
+  std::atomic<Clock::rep> due_{Clock::time_point::max().time_since_epoch().count()};
+};
 
 /// What one service counts and says of itself. Any thread may write, another publishes it
 /// (Heartbeat). Knows no DDS.
@@ -70,11 +94,9 @@ class ServiceRecord {
   void count_result(std::int64_t scan_published, std::int64_t received, std::int64_t published,
                     std::size_t failures);
 
-  /// Waits until the state changes or the record is closed, at most for `timeout`.
-  void wait_for_change(std::chrono::milliseconds timeout);
-  /// No change is waited for any more.
-  void close();
-  [[nodiscard]] bool closed() const;
+  /// Called at each change of state, from the thread that makes it; must not call back here. An
+  /// empty function takes the callback back: when this returns, it no longer runs.
+  void on_change(std::function<void()> callback);
 
   /// All of it as it is now, but for the memory of the process.
   [[nodiscard]] msg::ServiceStatus snapshot();
@@ -82,9 +104,7 @@ class ServiceRecord {
  private:
   const std::uint64_t incarnation_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool changed_state_ = false;
-  bool closed_ = false;
+  std::function<void()> on_change_;
   msg::ServiceStatus status_;
   std::uint64_t losses_[3] = {0, 0, 0};
   QuantileHistogram latency_;

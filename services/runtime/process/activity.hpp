@@ -8,6 +8,7 @@
 #include <string>
 
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/process/run_process.hpp"
 
 namespace quoin::runtime {
 
@@ -38,9 +39,8 @@ using BodyFactory = std::function<std::function<void(Context&)>(
 
 using ActivityFactory = BodyFactory<Activity>;
 
-/// The main function of a service without topics of data: command line, deployment file,
-/// participant, heartbeat, orderly end. The body returns when it is done, or when `wait_until` says
-/// false. Returns the exit code: 0 done or stopped, 2 wrong configuration, 1 anything else.
-int run_activity(int argc, char** argv, const KindInfo& kind, const ActivityFactory& open);
+/// A kind without topics of data. The body returns when it is done, or when `wait_until` says
+/// false.
+[[nodiscard]] Component activity_component(const KindInfo& kind, ActivityFactory open);
 
 }  // namespace quoin::runtime

@@ -7,6 +7,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "services/deployment/deployment.hpp"
+#include "services/runtime/process/log.hpp"
+
 namespace quoin::runtime {
 
 namespace {
@@ -40,14 +43,9 @@ msg::ControlReply reply_to(const msg::ControlRequest& request) {
 
 }  // namespace
 
-ControlServer::ControlServer(Service& service, Succession& succession, Handler handler)
-    : service_(service),
-      succession_(succession),
-      handler_(std::move(handler)),
-      writer_(service.participant, control_reply_topic(service.deployment.name_space),
-              QosPreset::control),
-      reader_(service.participant, control_request_topic(service.deployment.name_space),
-              QosPreset::control) {
+ControlServer::ControlServer(Participant& participant, std::string_view name_space)
+    : writer_(participant, control_reply_topic(name_space), QosPreset::control),
+      reader_(participant, control_request_topic(name_space), QosPreset::control) {
   wait_set_.add(reader_);
   receiver_ = std::thread([this] { receive(); });
   worker_ = std::thread([this] { work(); });
@@ -62,51 +60,79 @@ ControlServer::~ControlServer() {
   wait_set_.wake();
   receiver_.join();
   worker_.join();
-  // The answer to a request that ended the process must not go with it.
+}
+
+void ControlServer::add(ControlTarget target) {
+  const std::lock_guard lock(mutex_);
+  targets_.push_back(std::make_shared<const ControlTarget>(std::move(target)));
+}
+
+void ControlServer::remove(const std::string& label) {
+  {
+    std::unique_lock lock(mutex_);
+    const auto is_meant = [&](const Target& target) { return target->label == label; };
+    std::erase_if(targets_, is_meant);
+    std::erase_if(waiting_, [&](const Waiting& waiting) { return is_meant(waiting.target); });
+    changed_.wait(lock, [&] { return !at_work_ || !is_meant(at_work_); });
+  }
+  // The answer to a request that ended the service must not go with it.
   writer_.wait_for_acknowledgments(std::chrono::milliseconds(500));
 }
 
-// Two processes have the same name while one takes over from the other.
-bool ControlServer::for_this_process(const msg::ControlRequest& request) const {
-  return request.incarnation() == 0 ? !succession_.held()
-                                    : request.incarnation() == service_.record.incarnation();
+namespace {
+
+/// Two processes have services of the same name while one takes over from the other.
+bool is_addressed(const ControlTarget& target, const msg::ControlRequest& request) {
+  return request.incarnation() == 0 ? !target.succession->held()
+                                    : request.incarnation() == target.record->incarnation();
 }
+
+}  // namespace
 
 void ControlServer::receive() {
   msg::ControlRequest request;
   while (!ending_) {
     wait_set_.wait(std::chrono::seconds(1));
     while (!ending_ && reader_.take(request)) {
-      if (!for_this_process(request)) continue;
-      if (request.service() == label(service_.config)) {
-        accept(request);
-      } else if (request.service() == service_.config.name) {
-        refuse(request, "it has several instances; name one, such as " + label(service_.config));
+      std::unique_lock lock(mutex_);
+      const std::vector<Target> targets = targets_;
+      lock.unlock();
+      for (const Target& target : targets) {
+        if (!is_addressed(*target, request)) continue;
+        if (request.service() == target->label) {
+          accept(target, request);
+        } else if (request.service() == target->name) {
+          refuse(*target, request, "it has several instances; name one, such as " + target->label);
+        }
       }
     }
   }
 }
 
-void ControlServer::accept(const msg::ControlRequest& request) {
+void ControlServer::accept(const Target& target, const msg::ControlRequest& request) {
   if (oversized(request)) {
-    refuse(request, "larger than any request of use; nothing was read of it");
+    refuse(*target, request, "larger than any request of use; nothing was read of it");
     return;
   }
   begin_second();
   if (accepted_ >= most_accepted_a_second) {
-    refuse(request, "more than " + std::to_string(most_accepted_a_second) + " requests a second");
+    refuse(*target, request,
+           "more than " + std::to_string(most_accepted_a_second) + " requests a second");
     return;
   }
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() < most_waiting) {
       ++accepted_;
-      waiting_.push_back(request);
+      // Its service may have ended since.
+      if (std::ranges::find(targets_, target) != targets_.end()) {
+        waiting_.push_back({target, request});
+      }
       changed_.notify_all();
       return;
     }
   }
-  refuse(request,
+  refuse(*target, request,
          "already " + std::to_string(most_waiting) + " requests are waiting; ask again later");
 }
 
@@ -118,10 +144,11 @@ void ControlServer::begin_second() {
   refusals_ = 0;
 }
 
-void ControlServer::refuse(const msg::ControlRequest& request, const std::string& why) {
+void ControlServer::refuse(const ControlTarget& target, const msg::ControlRequest& request,
+                           const std::string& why) {
   begin_second();
   if (++refusals_ > most_refusals_a_second) {
-    service_.record.count_control_drop();
+    target.record->count_control_drop();
     return;
   }
   if (refusals_ == 1) spdlog::warn("control requests refused: {}", why);
@@ -137,18 +164,29 @@ void ControlServer::work() {
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
     if (ending_) return;
-    const msg::ControlRequest request = std::move(waiting_.front());
+    const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
+    at_work_ = next.target;
     lock.unlock();
-    handle(request);
+    handle(*next.target, next.request);
     lock.lock();
+    at_work_ = nullptr;
+    changed_.notify_all();
   }
 }
 
-void ControlServer::handle(const msg::ControlRequest& request) {
+void ControlServer::handle(const ControlTarget& target, const msg::ControlRequest& request) {
+  const LogName log_name(target.label);
   msg::ControlReply reply = reply_to(request);
   try {
-    carry_out(request, reply);
+    if (target.succession->handle(request, reply)) {
+      reply.accepted(true);
+    } else if (request.action() == msg::ControlAction::CONTROL_STOP) {
+      target.stop->request();
+      reply.accepted(true);
+    } else {
+      target.handler(request, reply);
+    }
   } catch (const std::exception& error) {
     reply.accepted(false);
     reply.detail(error.what());
@@ -159,17 +197,6 @@ void ControlServer::handle(const msg::ControlRequest& request) {
               reply.accepted() ? "done" : "refused", reply.detail().empty() ? "" : ": ",
               reply.detail());
   answer(reply);
-}
-
-void ControlServer::carry_out(const msg::ControlRequest& request, msg::ControlReply& reply) {
-  if (succession_.handle(request, reply)) {
-    reply.accepted(true);
-  } else if (request.action() == msg::ControlAction::CONTROL_STOP) {
-    service_.stop.request();
-    reply.accepted(true);
-  } else {
-    handler_(request, reply);
-  }
 }
 
 void ControlServer::answer(const msg::ControlReply& reply) {

@@ -10,9 +10,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "services/deployment/graph.hpp"
-#include "services/runtime/node/node.hpp"
-#include "services/runtime/process/control.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/runtime/node/local_topics.hpp"
 #include "services/runtime/process/service.hpp"
 
 namespace quoin::runtime {
@@ -25,23 +24,28 @@ using std::chrono::milliseconds;
 constexpr milliseconds longest_wait{1000};
 constexpr milliseconds pause_when_full{2};
 
-/// Runs one node in the thread that calls run().
-class NodeProcess {
+/// Runs a node in the thread that calls run().
+class NodeThread {
  public:
-  NodeProcess(Service& service, const KindInfo& kind, const PortTypes& types,
-              const MethodFactory& make)
+  NodeThread(Service& service, const KindInfo& kind, const PortTypes& types,
+             const MethodFactory& make)
       : service_(service),
         kind_(kind),
         types_(types),
         node_({.service = service.config.name,
                .method = service.config.method,
                .parameters = service.config.parameters,
-               .held = service.held},
+               .held = service.process.held},
               make, make_outputs(service, kind, types), service.data_thread()),
-        control_(service, node_.succession(),
-                 [this](const msg::ControlRequest& request, msg::ControlReply& reply) {
-                   node_.exchange().handle(request, reply);
-                 }) {}
+        answering_(service, node_.succession(),
+                   [this](const msg::ControlRequest& request, msg::ControlReply& reply) {
+                     node_.exchange().handle(request, reply);
+                   }) {}
+  ~NodeThread() {
+    for (ReaderBase* reader : readers_) wait_set_.remove(*reader);
+  }
+  NodeThread(const NodeThread&) = delete;
+  NodeThread& operator=(const NodeThread&) = delete;
 
   int run() {
     set_endpoint_report();
@@ -50,35 +54,62 @@ class NodeProcess {
     std::vector<const Output*> waiting;
     for (const Node::OutputPart& part : node_.outputs()) waiting.push_back(part.output.get());
     if (service_.wait_for_readers(waiting, node_.succession())) work();
-    service_.heartbeat.stopping();
     for (const Node::OutputPart& part : node_.outputs()) {
       if (!part.output->wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
         spdlog::warn("not all readers have acknowledged the last results");
       }
     }
     node_.leave();
-    service_.heartbeat.finish(msg::ServiceState::STATE_STOPPED);
+    service_.process.heartbeat.finish(service_.record, msg::ServiceState::STATE_STOPPED);
     service_.record.set_endpoint_report(nullptr);
     return exit_ok;
   }
 
  private:
+  void add(ReaderBase& reader) {
+    wait_set_.add(reader);
+    readers_.push_back(&reader);
+  }
+  void remove(ReaderBase& reader) {
+    wait_set_.remove(reader);
+    std::erase(readers_, &reader);
+  }
+
   [[nodiscard]] Node::InputPart wired(const Connection& connection) {
     const InputPort& port = *kind_.input(connection.port);
     const ServiceConfig& writer = *connection.writer;
-    DdsInput made = types_.inputs[static_cast<std::size_t>(&port - kind_.inputs.data())](
-        service_.participant, connection.output.topic, output_qos(writer, connection.output),
-        writer.external() ? writer.name : "");
-    wait_set_.add(*made.reader);
-    return {port, writer.name, connection.output.topic, std::move(made.input)};
+    const bool beside = share_memory(writer, service_.config);
+    std::unique_ptr<Input> input;
+    if (!beside || node_.succession().held()) {
+      DdsInput made = types_.inputs[static_cast<std::size_t>(&port - kind_.inputs.data())](
+          service_.process.participant, connection.output.topic,
+          output_qos(writer, connection.output), writer.external() ? writer.name : "");
+      add(*made.reader);
+      input = beside ? std::make_unique<TakeOverInput>(
+                           local(connection), std::move(made.input),
+                           [this, reader = made.reader] { remove(*reader); })
+                     : std::move(made.input);
+    } else {
+      input = local(connection);
+    }
+    return {port, writer.name, connection.output.topic, std::move(input)};
+  }
+
+  [[nodiscard]] std::unique_ptr<LocalInput> local(const Connection& connection) {
+    const TopicQos qos = output_qos(*connection.writer, connection.output);
+    return std::make_unique<LocalInput>(
+        service_.process.topics.topic(connection.output.topic), label(service_.config),
+        QueueLimit{static_cast<std::size_t>(history_depth(qos.preset)),
+                   qos.preset == QosPreset::lossless},
+        [this] { wait_set_.wake(); });
   }
 
   [[nodiscard]] Node::InputPart observed(const Connection& connection) {
     const OutputConfig& output = connection.output;
     auto input = std::make_unique<ObservedInput>(
-        service_.participant, output, observer_qos(*connection.writer, output),
+        service_.process.participant, output, observer_qos(*connection.writer, output),
         connection.writer->external() ? connection.writer->name : "");
-    wait_set_.add(input->reader());
+    add(input->reader());
     return {{.name = output.topic, .type = output.type},
             connection.writer->name,
             output.topic,
@@ -87,7 +118,7 @@ class NodeProcess {
 
   void open_inputs() {
     std::vector<Node::InputPart> parts;
-    for (const Connection& connection : service_.graph.inputs_of(service_.config)) {
+    for (const Connection& connection : service_.process.graph.inputs_of(service_.config)) {
       parts.push_back(kind_.observer ? observed(connection) : wired(connection));
     }
     // The heartbeat asks the node for its ports.
@@ -136,7 +167,7 @@ class NodeProcess {
       const auto left = std::chrono::ceil<milliseconds>(*due - Clock::now());
       timeout = std::clamp(left, milliseconds(0), timeout);
     }
-    service_.heartbeat.pulse().wait_until(Clock::now() + timeout);
+    service_.pulse.wait_until(Clock::now() + timeout);
     const bool active = wait_set_.wait(timeout);
     if (!active && service_.config.strength) node_.assert_liveliness();
     bool any = false;
@@ -150,9 +181,10 @@ class NodeProcess {
   Service& service_;
   const KindInfo& kind_;
   const PortTypes& types_;
+  WaitSet wait_set_;                  // woken by the inputs of the node, too
+  std::vector<ReaderBase*> readers_;  // that it waits for
   Node node_;
-  ControlServer control_;  // its threads use the node
-  WaitSet wait_set_;
+  Service::Answering answering_;  // by a thread that uses the node
 };
 
 /// Methods that fit what the kind says of itself, which `quoin check` and `quoin apply` go by.
@@ -175,15 +207,15 @@ MethodFactory checked(const KindInfo& kind, const MethodFactory& make) {
 
 }  // namespace
 
-int run_node(int argc, char** argv, const KindInfo& kind, const PortTypes& types,
-             const MethodFactory& make) {
-  const MethodFactory factory = checked(kind, make);
-  return run_service(
-      argc, argv, kind,
-      [&](const Deployment&, const ServiceConfig& config) {
-        (void)factory(config.method, config.parameters);  // throws before DDS is touched
-      },
-      [&](Service& service) { return NodeProcess(service, kind, types, factory).run(); });
+Component node_component(const KindInfo& kind, PortTypes types, MethodFactory make) {
+  return {&kind,
+          [&kind, types = std::move(types), factory = checked(kind, make)](
+              const Deployment&, const ServiceConfig& config) -> Component::Body {
+            (void)factory(config.method, config.parameters);  // throws before DDS is touched
+            return [&kind, &types, factory](Service& service) {
+              return NodeThread(service, kind, types, factory).run();
+            };
+          }};
 }
 
 }  // namespace quoin::runtime

@@ -20,7 +20,7 @@ class ServiceActivity : public Base {
   explicit ServiceActivity(Service& service) : service_(service) {}
 
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time) override {
-    Pulse& pulse = service_.heartbeat.pulse();
+    Pulse& pulse = service_.pulse;
     pulse.wait_until(time);
     const bool go_on = service_.stop.wait_until(time);
     pulse.beat();

@@ -7,9 +7,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/node/clock.hpp"
 #include "services/runtime/node/node.hpp"
-#include "services/runtime/process/control.hpp"
 #include "services/runtime/process/service_activity.hpp"
 #include "services/topics/header.hpp"
 
@@ -136,20 +136,20 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
                 const std::function<void(Source&)>& body) {
   Outputs outputs = make_outputs(service, kind, types);
   for (const Node::OutputPart& part : outputs) service.record.add_output(part.topic);
-  Succession succession(service.held);
+  Succession succession(service.process.held);
   service.record.set_endpoint_report([&outputs](msg::ServiceStatus& status) {
     status.incompatible_qos(report_outputs(outputs, status));
   });
-  ControlServer control(service, succession,
-                        [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
-                          if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
-                            throw std::invalid_argument(
-                                "kind " + service.config.kind +
-                                " has no methods; change its parameters in the deployment file "
-                                "and apply that (quoin apply)");
-                          }
-                          reply.accepted(true);
-                        });
+  const Service::Answering answering(
+      service, succession, [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
+        if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
+          throw std::invalid_argument(
+              "kind " + service.config.kind +
+              " has no methods; change its parameters in the deployment file "
+              "and apply that (quoin apply)");
+        }
+        reply.accepted(true);
+      });
   succession.on_request([&] {
     if (succession.asked()) service.stop.request();
   });
@@ -162,37 +162,37 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
     PublishingSource source(service, outputs, *first);
     try {
       body(source);
-      if (!service.stop.requested()) state = msg::ServiceState::STATE_FINISHED;
+      service.finished = !service.stop.requested();
+      if (service.finished) state = msg::ServiceState::STATE_FINISHED;
     } catch (const SourceError& error) {
       spdlog::error("{}", error.what());
       state = msg::ServiceState::STATE_FAILED;
       detail = error.what();
       exit_code = exit_input;
+      service.finished = true;
     }
     next = source.next();
   }
-  service.heartbeat.stopping();
   if (!all_is_acknowledged(service, outputs)) {
     spdlog::warn("not all readers have acknowledged the last scans");
   }
   succession.on_request(nullptr);
   succession.left(next, {});
-  service.heartbeat.finish(state, detail);
+  service.process.heartbeat.finish(service.record, state, detail);
   service.record.set_endpoint_report(nullptr);
   return exit_code;
 }
 
 }  // namespace
 
-int run_source(int argc, char** argv, const KindInfo& kind, const SourceFactory& open,
-               const PortTypes& types) {
-  std::function<void(Source&)> body;
-  return run_service(
-      argc, argv, kind,
-      [&](const Deployment& deployment, const ServiceConfig& config) {
-        body = open_body(open, deployment, config);
-      },
-      [&](Service& service) { return publish_all(service, kind, types, body); });
+Component source_component(const KindInfo& kind, SourceFactory open, PortTypes types) {
+  return {&kind,
+          [&kind, open = std::move(open), types = std::move(types)](
+              const Deployment& deployment, const ServiceConfig& config) -> Component::Body {
+            return [&kind, &types, body = open_body(open, deployment, config)](Service& service) {
+              return publish_all(service, kind, types, body);
+            };
+          }};
 }
 
 }  // namespace quoin::runtime

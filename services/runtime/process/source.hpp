@@ -45,13 +45,11 @@ class Source : public Activity {
 
 using SourceFactory = BodyFactory<Source>;
 
-/// The main function of a scan source: command line, deployment file, participant, waiting for the
-/// readers named in the deployment, heartbeat, orderly end. The body returns when a finite source
-/// has published everything, or when `publish` or `wait_until` says false.
-/// Returns the exit code: 0 finished or stopped, 2 wrong configuration, 3 SourceError, 1 anything
-/// else.
-/// `types`: of the kind's outputs, the scans first.
-int run_source(int argc, char** argv, const KindInfo& kind, const SourceFactory& open,
-               const PortTypes& types = port_types(Reads<>(), Writes<msg::Scan>()));
+/// A kind of scan source. A service of it waits for the readers named in the deployment; the body
+/// returns when a finite source has published everything, or when `publish` or `wait_until` says
+/// false. `types`: of the kind's outputs, the scans first.
+[[nodiscard]] Component source_component(const KindInfo& kind, SourceFactory open,
+                                         PortTypes types = port_types(Reads<>(),
+                                                                      Writes<msg::Scan>()));
 
 }  // namespace quoin::runtime

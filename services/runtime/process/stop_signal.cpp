@@ -50,14 +50,14 @@ void StopSignal::watch() {
   }
 }
 
-void StopSignal::request() {
+void Stop::request() {
   const std::lock_guard lock(mutex_);
   requested_.store(true, std::memory_order_release);
   changed_.notify_all();
   if (const auto callback = std::exchange(callback_, nullptr)) callback();
 }
 
-void StopSignal::on_request(std::function<void()> callback) {
+void Stop::on_request(std::function<void()> callback) {
   const std::lock_guard lock(mutex_);
   if (requested()) {
     if (callback) callback();
@@ -66,7 +66,7 @@ void StopSignal::on_request(std::function<void()> callback) {
   }
 }
 
-bool StopSignal::wait_until(std::chrono::steady_clock::time_point time) {
+bool Stop::wait_until(std::chrono::steady_clock::time_point time) {
   std::unique_lock lock(mutex_);
   return !changed_.wait_until(lock, time, [this] { return requested(); });
 }

@@ -11,17 +11,10 @@
 
 namespace quoin::runtime {
 
-/// Turns SIGTERM and SIGINT into a flag, a wake-up and a callback. Make one, in main, before any
-/// other thread exists: it blocks the signals for all threads started later.
-class StopSignal {
+/// A request to end: a flag, a wake-up and a callback.
+class Stop {
  public:
-  StopSignal();
-  ~StopSignal();
-  StopSignal(const StopSignal&) = delete;
-  StopSignal& operator=(const StopSignal&) = delete;
-
   [[nodiscard]] bool requested() const { return requested_.load(std::memory_order_acquire); }
-  /// As if the signal had come.
   void request();
   /// Called once, from another thread, when the stop is requested; at once if it has been. An empty
   /// function takes the callback back: when this returns, it no longer runs. Must not call back
@@ -31,12 +24,24 @@ class StopSignal {
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time);
 
  private:
-  void watch();
-
   std::atomic<bool> requested_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> callback_;
+};
+
+/// Requested by SIGTERM and SIGINT. Make one, in main, before any other thread exists: it blocks
+/// the signals for all threads started later.
+class StopSignal : public Stop {
+ public:
+  StopSignal();
+  ~StopSignal();
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+
+ private:
+  void watch();
+
   int signal_descriptor_ = -1;
   int end_descriptor_ = -1;
   std::thread watcher_;

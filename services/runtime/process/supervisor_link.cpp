@@ -8,7 +8,7 @@
 
 namespace quoin::runtime {
 
-SupervisorLink::SupervisorLink() = default;
+SupervisorLink::SupervisorLink(Alive alive) : alive_(std::move(alive)) {}
 
 SupervisorLink::~SupervisorLink() {
   {
@@ -35,7 +35,7 @@ void SupervisorLink::watch(std::chrono::microseconds period) {
   const auto half = period / 2;
   std::unique_lock lock(mutex_);
   while (!ending_) {
-    if (pulse_.alive(Pulse::Clock::now(), half)) {
+    if (alive_(Clock::now(), half)) {
       lock.unlock();
       ::sd_notify(0, "WATCHDOG=1");
       lock.lock();

@@ -73,26 +73,26 @@ TEST(ExportPlan, ReadersComeBeforeWhatTheyRead) {
   const Deployment read = deployment();
   const ExportPlan plan = plan_export(read, "");
   EXPECT_EQ(plan.id, "quoin-Fleet-robot1");
-  ASSERT_THAT(plan.services, SizeIs(7));
-  for (const ExportedService& service : plan.services) {
-    SCOPED_TRACE(service.id);
-    if (service.id == "front") {
-      EXPECT_THAT(service.after, ElementsAre("walls", "device"));
-      EXPECT_EQ(service.serial_port, "auto");
-      EXPECT_FALSE(service.may_finish);
+  ASSERT_THAT(plan.processes, SizeIs(7));
+  for (const ExportedProcess& process : plan.processes) {
+    SCOPED_TRACE(process.id);
+    if (process.id == "front") {
+      EXPECT_THAT(process.after, ElementsAre("walls", "device"));
+      EXPECT_EQ(process.serial_port, "auto");
+      EXPECT_FALSE(process.may_finish);
     }
-    if (service.id == "rear") {
-      EXPECT_FALSE(service.serial_port);
-      EXPECT_TRUE(service.own_network);
+    if (process.id == "rear") {
+      EXPECT_FALSE(process.serial_port);
+      EXPECT_TRUE(process.own_network);
     }
-    if (service.id == "side") {
-      EXPECT_TRUE(service.may_finish);
+    if (process.id == "side") {
+      EXPECT_TRUE(process.may_finish);
     }
-    if (service.id == "walls") {
-      EXPECT_THAT(service.after, ElementsAre("a", "on"));
+    if (process.id == "walls") {
+      EXPECT_THAT(process.after, ElementsAre("a", "on"));
     }
-    if (service.id == "a") {
-      EXPECT_THAT(service.after, IsEmpty());
+    if (process.id == "a") {
+      EXPECT_THAT(process.after, IsEmpty());
     }
   }
 }
@@ -110,20 +110,20 @@ network: {interfaces: [eth0], discovery: multicast}
 TEST(ExportPlan, TakesTheShareOfAHost) {
   const Deployment read = deployment(two_hosts);
   const ExportPlan plan = plan_export(read, "compute");
-  ASSERT_THAT(plan.services, SizeIs(2));
-  EXPECT_EQ(plan.services[0].id, "walls");
-  EXPECT_THAT(plan.services[0].after, ElementsAre("lines-5")) << "the other one is elsewhere";
-  EXPECT_EQ(plan.services[1].label, "lines@5");
-  EXPECT_EQ(plan.services[1].id, "lines-5");
+  ASSERT_THAT(plan.processes, SizeIs(2));
+  EXPECT_EQ(plan.processes[0].id, "walls");
+  EXPECT_THAT(plan.processes[0].after, ElementsAre("lines-5")) << "the other one is elsewhere";
+  EXPECT_EQ(plan.processes[1].name, "lines@5");
+  EXPECT_EQ(plan.processes[1].id, "lines-5");
 }
 
 TEST(ExportPlan, DiscoveryServersComeFirst) {
   const Deployment read = deployment(two_hosts);
   const ExportPlan plan = plan_export(read, "lidar", true);
-  ASSERT_THAT(plan.services, SizeIs(3));
-  EXPECT_EQ(plan.services[0].id, "discovery-server");
+  ASSERT_THAT(plan.processes, SizeIs(3));
+  EXPECT_EQ(plan.processes[0].id, "discovery-server");
   for (const std::size_t i : {1, 2}) {
-    EXPECT_THAT(plan.services[i].after, testing::Contains("discovery-server"));
+    EXPECT_THAT(plan.processes[i].after, testing::Contains("discovery-server"));
   }
   const auto units = systemd_units(plan, "/usr/bin");
   EXPECT_THAT(

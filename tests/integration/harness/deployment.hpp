@@ -12,8 +12,8 @@
 
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/accounting/accounting.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -30,13 +30,11 @@ void handle(runtime::Work& work) {
   out.covariance_mode(mark(work.around<msg::Scan>("scan"), in.header().stamp()));
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::node_component(
+    tests::join_kind(),
+    runtime::port_types(runtime::Reads<msg::Lines, msg::Scan>(), runtime::Writes<msg::Lines>()),
+    [](const std::string&, const ParameterSettings&) {
+      return runtime::Method{.handle = handle};
+    }));
 
-int main(int argc, char** argv) {
-  return runtime::run_node(
-      argc, argv, tests::join_kind(),
-      runtime::port_types(runtime::Reads<msg::Lines, msg::Scan>(), runtime::Writes<msg::Lines>()),
-      [](const std::string&, const ParameterSettings&) {
-        return runtime::Method{.handle = handle};
-      });
-}
+}  // namespace

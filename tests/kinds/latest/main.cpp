@@ -21,11 +21,9 @@ runtime::Method make(const std::string&, const ParameterSettings&) {
   }};
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::node_component(
+    tests::latest_kind(),
+    runtime::port_types(runtime::Reads<msg::Scan, msg::Corners>(), runtime::Writes<msg::Corners>()),
+    make));
 
-int main(int argc, char** argv) {
-  return runtime::run_node(argc, argv, tests::latest_kind(),
-                           runtime::port_types(runtime::Reads<msg::Scan, msg::Corners>(),
-                                               runtime::Writes<msg::Corners>()),
-                           make);
-}
+}  // namespace

@@ -18,9 +18,7 @@ runtime::Method make(const std::string&, const ParameterSettings&) {
   }};
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::node_component(
+    tests::observer_kind(), runtime::port_types(runtime::Reads<>(), runtime::Writes<>()), make));
 
-int main(int argc, char** argv) {
-  return runtime::run_node(argc, argv, tests::observer_kind(),
-                           runtime::port_types(runtime::Reads<>(), runtime::Writes<>()), make);
-}
+}  // namespace

@@ -53,14 +53,12 @@ void publish_all(const tests::OdometerParameters& parameters, runtime::Source& s
   }
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::source_component(
+    tests::odometer_kind(),
+    [](const ServiceConfig& config, const std::filesystem::path&) {
+      const auto parameters = make_parameters<tests::OdometerParameters>(config.parameters);
+      return [parameters](runtime::Source& source) { publish_all(parameters, source); };
+    },
+    runtime::port_types(runtime::Reads<>(), runtime::Writes<msg::Scan, msg::Lines>())));
 
-int main(int argc, char** argv) {
-  return runtime::run_source(
-      argc, argv, tests::odometer_kind(),
-      [](const ServiceConfig& config, const std::filesystem::path&) {
-        const auto parameters = make_parameters<tests::OdometerParameters>(config.parameters);
-        return [parameters](runtime::Source& source) { publish_all(parameters, source); };
-      },
-      runtime::port_types(runtime::Reads<>(), runtime::Writes<msg::Scan, msg::Lines>()));
-}
+}  // namespace

@@ -45,10 +45,8 @@ runtime::Method make(const std::string& method, const ParameterSettings& setting
               }};
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::node_component(
+    tests::own_rate_kind(),
+    runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<msg::Corners>()), make));
 
-int main(int argc, char** argv) {
-  return runtime::run_node(
-      argc, argv, tests::own_rate_kind(),
-      runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<msg::Corners>()), make);
-}
+}  // namespace

@@ -17,10 +17,8 @@ runtime::Method make(const std::string&, const ParameterSettings&) {
   }};
 }
 
-}  // namespace
+const runtime::Registration registration(runtime::node_component(
+    tests::sink_kind(), runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<>()),
+    make));
 
-int main(int argc, char** argv) {
-  return runtime::run_node(argc, argv, tests::sink_kind(),
-                           runtime::port_types(runtime::Reads<msg::Corners>(), runtime::Writes<>()),
-                           make);
-}
+}  // namespace

@@ -9,7 +9,6 @@
 
 #include "deploy/kinds/kinds.hpp"
 #include "services/keys/documents.hpp"
-#include "services/keys/key_check.hpp"
 #include "services/keys/key_files.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
-#include "services/runtime/dds/reader.hpp"
 #include "services/topics/header.hpp"
 
 int main(int argc, char** argv) {

@@ -11,10 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/header.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"

@@ -15,10 +15,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
 #include "services/topics/header.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 #include "tests/services/runtime/heap.hpp"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "services/runtime/node/node.hpp"
-#include "services/runtime/node/partners.hpp"
+#include "services/runtime/node/ports.hpp"
 #include "tests/services/runtime/node/stage.hpp"
 
 namespace quoin::runtime {

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "services/runtime/node/service_record.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/services/runtime/notify_socket.hpp"
 #include "tests/temporary_folder.hpp"
@@ -32,8 +33,10 @@ TEST(Pulse, IsDueWhenItWasPromised) {
   EXPECT_TRUE(pulse.alive(now, 1s));
 }
 
+bool is_alive(SupervisorLink::Clock::time_point, SupervisorLink::Clock::duration) { return true; }
+
 void says_everything(NotifySocket& socket) {
-  SupervisorLink link;
+  SupervisorLink link(is_alive);
   link.status("starting:\nwaiting\tfor 1 readers");
   link.ready();
   link.ready();
@@ -53,7 +56,7 @@ TEST(SupervisorLink, SpeaksToASocketOfAnyKind) {
 
 TEST(SupervisorLink, IsSilentWithoutASocket) {
   ::unsetenv("NOTIFY_SOCKET");
-  SupervisorLink link;
+  SupervisorLink link(is_alive);
   link.ready();
   link.status("active");
   link.stopping();
@@ -62,14 +65,15 @@ TEST(SupervisorLink, IsSilentWithoutASocket) {
 TEST(SupervisorLink, GivesSignsOfLifeOnceItIsReady) {
   NotifySocket socket("@quoin_watchdog_" + std::to_string(::getpid()));
   ::setenv("WATCHDOG_USEC", "20000", 1);
-  SupervisorLink link;
+  Pulse pulse;
+  SupervisorLink link([&](auto now, auto allowance) { return pulse.alive(now, allowance); });
   EXPECT_THAT(socket.take(), IsEmpty());
   link.ready();
   EXPECT_EQ(socket.next("READY=1"), "READY=1");
   for (int i = 0; i < 3; ++i) {
     // A beat counts for half a period; on a busy machine the next look may come later.
     EXPECT_TRUE(tests::eventually([&] {
-      link.pulse().beat();
+      pulse.beat();
       return testing::Value(socket.take(), testing::Contains("WATCHDOG=1"));
     }));
   }

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/runtime/process/memory.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -10,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/runtime/process/heartbeat.hpp"
 #include "tests/services/runtime/heap.hpp"
 
 namespace quoin::runtime {

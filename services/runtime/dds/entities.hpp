@@ -2,25 +2,80 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-#include "services/runtime/dds/participant_impl.hpp"
-#include "services/runtime/dds/reader.hpp"
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/discovery.hpp"
+#include "services/runtime/dds/endpoints.hpp"
+#include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/qos.hpp"
 #include "services/topics/cdr_codec.hpp"
 
 namespace quoin::runtime {
+
+struct Participant::Impl {
+  explicit Impl(std::unique_ptr<KnownEndpoints> others) : endpoints(std::move(others)) {}
+
+  std::unique_ptr<KnownEndpoints> endpoints;  // outlives the participant, which calls it
+  eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
+  Discovery discovery = Discovery::peers;
+  std::chrono::steady_clock::time_point created;
+  std::jthread answering;  // of an observer; ends before the participant
+
+  /// The topic of this name, made at its first use, as its type is; `codec` is null for raw
+  /// endpoints. Throws std::runtime_error, also when the topic has another type.
+  eprosima::fastdds::dds::Topic* topic(const std::string& name, const std::string& type_name,
+                                       const topics::CdrCodec* codec);
+};
+
+/// Number of peers of an endpoint, as its listener sees it.
+class MatchState {
+ public:
+  void set_matched(int count);
+  [[nodiscard]] std::size_t matched() const;
+  [[nodiscard]] bool wait(std::size_t count, std::chrono::milliseconds timeout) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::size_t matched_ = 0;
+};
+
+[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(const TopicQos& topic);
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(const TopicQos& topic);
+
+/// Discovery asks the ports of this many participants on a host; the port formula of the RTPS
+/// standard has room for 119 in a domain.
+inline constexpr std::uint32_t max_participants = 100;
+
+/// Transport and discovery of a participant that uses the interfaces of these `addresses` and no
+/// others. Throws DeploymentError when it is to be a discovery server at another address.
+[[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos network_qos(
+    const ParticipantConfig& config, const std::vector<std::string>& addresses);
 
 /// What readers and writers give to DDS in place of a message.
 struct CdrSample {

@@ -1,15 +1,114 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "services/runtime/dds/writer.hpp"
+#include "services/runtime/dds/endpoints.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
-#include "services/runtime/dds/endpoints_impl.hpp"
-#include "services/runtime/dds/qos_impl.hpp"
+#include <fastdds/dds/core/condition/GuardCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include "services/runtime/dds/entities.hpp"
 
 namespace quoin::runtime {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
+                       const topics::CdrCodec* codec, const TopicQos& qos)
+    : participant(owner), topic_name(topic) {
+  reader = owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type_name, codec),
+                                                      reader_qos(qos), this,
+                                                      dds::StatusMask::subscription_matched());
+  if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
+  reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
+}
+
+ReaderBase::Impl::~Impl() {
+  if (reader != nullptr) participant.impl().subscriber->delete_datareader(reader);
+}
+
+void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
+                                               const dds::SubscriptionMatchedStatus& status) {
+  match.set_matched(status.current_count);
+}
+
+ReaderBase::ReaderBase(Participant& participant, const std::string& topic,
+                       const std::string& type_name, const topics::CdrCodec* codec,
+                       const TopicQos& qos)
+    : impl_(std::make_unique<Impl>(participant, topic, type_name, codec, qos)) {}
+ReaderBase::~ReaderBase() = default;
+
+std::size_t ReaderBase::matched() const { return impl_->match.matched(); }
+
+bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds timeout) const {
+  return impl_->match.wait(count, timeout);
+}
+
+std::vector<std::string> ReaderBase::incompatible_qos() const {
+  return impl_->participant.impl().endpoints->misfits_of_reader(impl_->topic_name,
+                                                                policies_of(*impl_->reader));
+}
+
+bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
+  CdrSample sample{message, codec};
+  dds::SampleInfo info;
+  while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+    if (!info.valid_data) continue;  // tells of an instance that ended
+    const auto& writer = info.sample_identity.writer_guid();
+    std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+    for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
+    for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
+    last_sample_ = {hash, info.sample_identity.sequence_number().to64long(),
+                    info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()};
+    return true;
+  }
+  return false;
+}
+
+bool RawReader::take(topics::RawMessage& message) {
+  if (!take_sample(&message, nullptr)) return false;
+  message.published = last_sample().sent;
+  message.received = last_sample().received;
+  return true;
+}
+
+struct WaitSet::Impl {
+  dds::WaitSet wait_set;
+  dds::GuardCondition woken;
+  dds::ConditionSeq active;
+};
+
+WaitSet::WaitSet() : impl_(std::make_unique<Impl>()) {
+  impl_->wait_set.attach_condition(impl_->woken);
+}
+
+WaitSet::~WaitSet() = default;
+
+void WaitSet::add(ReaderBase& reader) {
+  impl_->wait_set.attach_condition(reader.impl().reader->get_statuscondition());
+}
+
+void WaitSet::remove(ReaderBase& reader) {
+  impl_->wait_set.detach_condition(reader.impl().reader->get_statuscondition());
+}
+
+bool WaitSet::wait(std::chrono::milliseconds timeout) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
+  const bool active =
+      impl_->wait_set.wait(impl_->active, Duration_t(static_cast<std::int32_t>(seconds.count()),
+                                                     static_cast<std::uint32_t>(rest.count()))) ==
+      ReturnCode_t::RETCODE_OK;
+  impl_->woken.set_trigger_value(false);
+  return active;
+}
+
+void WaitSet::wake() { impl_->woken.set_trigger_value(true); }
 
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "services/deployment/deployment.hpp"
+#include "services/deployment/kind.hpp"
+
+namespace quoin::runtime {
+
+struct Service;
+
+/// A kind, and what a service of it does.
+struct Component {
+  /// The work of one service, in a thread of its own, until it is done or asked to stop. Returns
+  /// the exit code: 0 done or stopped, 3 the input of a source became unusable.
+  using Body = std::function<int(Service&)>;
+
+  const KindInfo* kind = nullptr;
+  /// Opens what the service works on, before DDS is touched. Exceptions are errors in the
+  /// configuration.
+  std::function<Body(const Deployment&, const ServiceConfig&)> open;
+};
+
+/// Makes a kind known to the main function of the program that this is linked into. One in the main
+/// file of a kind; the program of a kind has one, that of composed processes one of each.
+class Registration {
+ public:
+  explicit Registration(Component component);
+};
+[[nodiscard]] const std::vector<Component>& registered_components();
+
+/// The main function of a process with one service (--service), or those that the deployment puts
+/// into one process (--process): command line, log, deployment file, signals. On SIGTERM and SIGINT
+/// each service ends when those before it in the process have. Returns the exit code: 0 stopped or
+/// finished, 2 wrong configuration, 3 the input of a source became unusable, 1 anything else.
+int run_process(int argc, char** argv, const std::vector<Component>& components);
+
+}  // namespace quoin::runtime
