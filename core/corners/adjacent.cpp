@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
-#include "core/sensor/polar.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin {
 namespace {

@@ -7,27 +7,10 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/geometry/corner.hpp"
 #include "core/geometry/line.hpp"
-#include "core/sensor/points.hpp"
 
 namespace quoin {
-
-/// A fitted line with the ends of the wall that was seen.
-struct LineSegment {
-  LineEstimate estimate;
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< [m] projection of the first point
-  Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< [m] projection of the last point
-};
-
-/// The line with the projections of the first and the last of the points it was fitted to.
-[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const PointsView& points);
-
-/// The same for who has the unit normal of the line already, such as from its fit.
-[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
-                                       const PointsView& points);
 
 /// Corner of two lines of a scan.
 struct Corner {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/evaluation/stopwatch.hpp"
-#include "core/sensor/polar.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/random.hpp"
 
 namespace quoin {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/extraction/extraction.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/world.hpp"
 #include "core/statistics/interval.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
-#include "core/sensor/polar.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/scanner.hpp"
 
 namespace quoin {

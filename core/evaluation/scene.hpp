@@ -10,7 +10,6 @@
 #include "core/geometry/line.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 #include "core/simulation/random.hpp"
 #include "core/simulation/world.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/segmentation/segment.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/world.hpp"
 #include "core/statistics/interval.hpp"
 

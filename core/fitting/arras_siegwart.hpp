@@ -6,10 +6,27 @@
 
 namespace quoin {
 
+/// First step of the method: the line, eq. (16) and (17).
+[[nodiscard]] inline OrthogonalLine arras_siegwart_line(const PointsView& points) {
+  return fit_orthogonal(points, PointWeights::inverse_square_range);
+}
+
+/// Second step: the covariance of (alpha, r) of that line, eq. (19).
+[[nodiscard]] inline Eigen::Matrix2d arras_siegwart_covariance(const PointsView& points,
+                                                               const SensorModel& sensor,
+                                                               const OrthogonalLine& fit,
+                                                               CovarianceMode mode) {
+  const double bearing_stddev = mode == CovarianceMode::propagated ? sensor.bearing_stddev : 0.0;
+  return orthogonal_covariance(points, PointWeights::inverse_square_range, fit,
+                               sensor.range_stddev * sensor.range_stddev,
+                               bearing_stddev * bearing_stddev);
+}
+
 /// Weighted orthogonal fit of Arras and Siegwart with the weights 1 / (sigma_rho rho sigma_theta)^2
 /// of the CWLF paper's eq. (3), in the form whose time grows with the number of points instead of
-/// its square (see arras_siegwart_literal.hpp). The standard deviations cancel in the line. The
-/// estimator is biased where the noise along the rays is not across the line.
+/// its square (see arras_siegwart_literal in core/evaluation/papers/cwlf_paper.hpp). The standard
+/// deviations cancel in the line. The estimator is biased where the noise along the rays is not
+/// across the line.
 ///
 /// `as_published` keeps the range noise only, as the reference they compare with does.
 class ArrasSiegwart {
@@ -28,19 +45,14 @@ class ArrasSiegwart {
   ArrasSiegwart() = default;
   explicit ArrasSiegwart(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    const OrthogonalLine fit = arras_siegwart_line(points);
+    if (!fit.ok()) return FitResult::failed(fit.failure);
+    return fitted(fit, arras_siegwart_covariance(points, sensor, fit, parameters_.covariance));
+  }
 
  private:
   Parameters parameters_;
 };
-
-/// First step of the method: the line, eq. (16) and (17).
-[[nodiscard]] OrthogonalLine arras_siegwart_line(const PointsView& points);
-
-/// Second step: the covariance of (alpha, r) of that line, eq. (19).
-[[nodiscard]] Eigen::Matrix2d arras_siegwart_covariance(const PointsView& points,
-                                                        const SensorModel& sensor,
-                                                        const OrthogonalLine& fit,
-                                                        CovarianceMode mode);
 
 }  // namespace quoin

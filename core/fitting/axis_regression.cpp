@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/fitting/moments.hpp"
-#include "core/fitting/point_influence.hpp"
-#include "core/geometry/angle.hpp"
 #include "core/sensor/multiversion.hpp"
 
 namespace quoin {
@@ -29,45 +27,35 @@ struct Axes {
         turn(y_on_x ? 1.0 : -1.0) {}
 };
 
-/// Sums of the weighted regression about a fixed origin; the weights are those of CWLF eq. (23)
-/// times both variances, so that neither needs to be positive alone.
-struct Sums {
-  double w = 0.0, wu = 0.0, wv = 0.0, wuu = 0.0, wuv = 0.0;
-};
-
+/// Moments about a fixed origin; the weights are those of CWLF eq. (23) times both variances, so
+/// that neither needs to be positive alone.
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict u, const double* __restrict v, const double* __restrict u_ray,
             const double* __restrict v_ray, const double* __restrict inverse_range,
             std::size_t count, double u_origin, double v_origin, double range_variance,
-            double bearing_variance, Sums& out) {
-  Sums sums;
+            double bearing_variance, Moments& out) {
+  Moments sums;
   for (std::size_t i = 0; i < count; ++i) {
     const double per_range = u_ray[i] * inverse_range[i];
     const double w =
         range_variance * per_range * per_range + bearing_variance * v_ray[i] * v_ray[i];
-    const double du = u[i] - u_origin;
-    const double dv = v[i] - v_origin;
-    sums.w += w;
-    sums.wu += w * du;
-    sums.wv += w * dv;
-    sums.wuu += w * du * du;
-    sums.wuv += w * du * dv;
+    sums.add(u[i] - u_origin, v[i] - v_origin, w);
   }
   out = sums;
 }
 
-/// What the influence of a point depends on besides the point.
+/// What the derivatives depend on besides the point.
 struct Regression {
   double slope, mean, intercept, turn, range_weight, bearing_weight;
 };
 
-/// Influences of one point on (spread * slope, weight * intercept). Normal equations: sum w e = 0
+/// Derivatives of (spread * slope, weight * intercept). Normal equations: sum w e = 0
 /// and sum w xi e = 0 with e the residual of v and xi = u - mean, so a point displaced by (du, dv)
 /// with its weight changed by dw moves the intercept by f = w (dv - slope du) + dw e and the slope
 /// by xi f + w e du.
 template <bool weighted>
-inline PointInfluence influence_of(double u, double v, double u_ray, double v_ray, double inverse,
-                                   const Regression& fit) {
+inline PointJacobian jacobian_of(double u, double v, double u_ray, double v_ray, double inverse,
+                                 const Regression& fit) {
   double w = 1.0;
   double w_range = 0.0;
   double w_bearing = 0.0;
@@ -86,20 +74,19 @@ inline PointInfluence influence_of(double u, double v, double u_ray, double v_ra
 }
 
 QUOIN_MULTIVERSION
-void add_up_influences(const double* __restrict u, const double* __restrict v,
-                       const double* __restrict u_ray, const double* __restrict v_ray,
-                       const double* __restrict inverse_range, std::size_t count, bool weighted,
-                       Regression fit, double range_variance, double bearing_variance,
-                       Symmetric2& out) {
+void add_up_noise(const double* __restrict u, const double* __restrict v,
+                  const double* __restrict u_ray, const double* __restrict v_ray,
+                  const double* __restrict inverse_range, std::size_t count, bool weighted,
+                  Regression fit, double range_variance, double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   if (weighted) {
     for (std::size_t i = 0; i < count; ++i) {
-      add_noise(sums, influence_of<true>(u[i], v[i], u_ray[i], v_ray[i], inverse_range[i], fit),
+      add_noise(sums, jacobian_of<true>(u[i], v[i], u_ray[i], v_ray[i], inverse_range[i], fit),
                 range_variance, bearing_variance);
     }
   } else {
     for (std::size_t i = 0; i < count; ++i) {
-      add_noise(sums, influence_of<false>(u[i], v[i], u_ray[i], v_ray[i], 1.0, fit), range_variance,
+      add_noise(sums, jacobian_of<false>(u[i], v[i], u_ray[i], v_ray[i], 1.0, fit), range_variance,
                 bearing_variance);
     }
   }
@@ -127,53 +114,45 @@ AxisRegression fit_axis(const PointsView& points, AxisWeights weights,
     return fit;
   };
   if (points.size() < 2) return failed(FitFailure::too_few_points);
-  const Moments m = moments_of(points, PointWeights::equal);
+  CentralMoments m = central_moments(points, PointWeights::equal);
   if (!std::isfinite(m.trace())) return failed(FitFailure::not_finite);
   if (!m.have_extent()) return failed(FitFailure::degenerate);
-  fit.y_on_x = m.spread.xx > m.spread.yy;
-  const double u_mean = fit.y_on_x ? m.mean_x : m.mean_y;
-  const double v_mean = fit.y_on_x ? m.mean_y : m.mean_x;
-  if (weights == AxisWeights::equal) {
-    fit.mean = u_mean;
-    fit.intercept = v_mean;
-    fit.weight = m.weight;
-    fit.spread = std::max(m.spread.xx, m.spread.yy);
-    fit.slope = m.spread.xy / fit.spread;
-    const double v_spread = std::min(m.spread.xx, m.spread.yy);
-    fit.residual = std::max(0.0, v_spread - fit.slope * m.spread.xy);
-  } else {
-    const Axes axes(points, fit.y_on_x);
-    Sums sums;
-    add_up(axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
-           u_mean, v_mean, variances.range, variances.bearing, sums);
-    const double u_shift = sums.wu / sums.w;
-    const double v_shift = sums.wv / sums.w;
-    fit.mean = u_mean + u_shift;
-    fit.intercept = v_mean + v_shift;
-    fit.weight = sums.w;
-    fit.spread = sums.wuu - sums.w * u_shift * u_shift;
-    fit.slope = (sums.wuv - sums.w * u_shift * v_shift) / fit.spread;
-    if (!std::isfinite(fit.spread)) return failed(FitFailure::not_finite);
-    // All the weight may lie on one point.
-    if (!(fit.spread > 1e-18 * sums.w * (u_mean * u_mean + v_mean * v_mean))) {
-      return failed(FitFailure::degenerate);
-    }
+  fit.y_on_x = m.scatter.xx > m.scatter.yy;
+  if (!fit.y_on_x) {
+    std::swap(m.mean_x, m.mean_y);
+    std::swap(m.scatter.xx, m.scatter.yy);
   }
+  if (weights == AxisWeights::conditional) {
+    const Axes axes(points, fit.y_on_x);
+    Moments sums;
+    add_up(axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
+           m.mean_x, m.mean_y, variances.range, variances.bearing, sums);
+    const double square = m.mean_x * m.mean_x + m.mean_y * m.mean_y;
+    m = CentralMoments(sums, m.mean_x, m.mean_y);
+    if (!std::isfinite(m.scatter.xx)) return failed(FitFailure::not_finite);
+    // All the weight may lie on one point.
+    if (!(m.scatter.xx > 1e-18 * m.weight * square)) return failed(FitFailure::degenerate);
+  }
+  fit.mean = m.mean_x;
+  fit.intercept = m.mean_y;
+  fit.weight = m.weight;
+  fit.spread = m.scatter.xx;
+  fit.slope = m.scatter.xy / fit.spread;
+  fit.residual = std::max(0.0, m.scatter.yy - fit.slope * m.scatter.xy);
   find_normal_form(fit);
   return fit;
 }
 
-Symmetric2 axis_influence(const PointsView& points, AxisWeights weights, const AxisRegression& fit,
-                          const SensorModel& sensor) {
+Symmetric2 axis_covariance(const PointsView& points, AxisWeights weights, const AxisRegression& fit,
+                           const SensorModel& sensor) {
   const Axes axes(points, fit.y_on_x);
   const WeightVariances variances(sensor);
   Symmetric2 sums;
-  add_up_influences(
-      axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
-      weights == AxisWeights::conditional,
-      {fit.slope, fit.mean, fit.intercept, axes.turn, variances.range, variances.bearing},
-      sensor.range_stddev * sensor.range_stddev, sensor.bearing_stddev * sensor.bearing_stddev,
-      sums);
+  add_up_noise(axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
+               weights == AxisWeights::conditional,
+               {fit.slope, fit.mean, fit.intercept, axes.turn, variances.range, variances.bearing},
+               sensor.range_stddev * sensor.range_stddev,
+               sensor.bearing_stddev * sensor.bearing_stddev, sums);
   const double s = 1.0 / fit.spread;
   const double w = 1.0 / fit.weight;
   return {sums.xx * s * s, sums.xy * s * w, sums.yy * w * w};

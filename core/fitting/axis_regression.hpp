@@ -5,13 +5,13 @@
 #include <Eigen/Core>
 
 #include "core/fitting/fit.hpp"
-#include "core/fitting/symmetric2.hpp"
-#include "core/fitting/weight_variances.hpp"
+#include "core/fitting/point_sums.hpp"
 
 namespace quoin {
 
 /// Regression line v = slope (u - mean) + intercept with (u, v) = (x, y), or (y, x) when the points
-/// spread further along y (Vandorpe's choice, CWLF eq. 20 and 21).
+/// spread further along y (Vandorpe's choice, CWLF eq. 20 and 21). Not a NormalLine: the covariance
+/// belongs to slope and intercept, and so do the equations.
 struct AxisRegression {
   FitFailure failure = FitFailure::none;
   bool y_on_x = true;
@@ -36,8 +36,8 @@ enum class AxisWeights {
 
 /// Covariance of (slope, intercept) as the sum of the first-order contributions of range and
 /// bearing noise of each point, in both coordinates and in the weights.
-[[nodiscard]] Symmetric2 axis_influence(const PointsView& points, AxisWeights weights,
-                                        const AxisRegression& fit, const SensorModel& sensor);
+[[nodiscard]] Symmetric2 axis_covariance(const PointsView& points, AxisWeights weights,
+                                         const AxisRegression& fit, const SensorModel& sensor);
 
 /// Covariance of (alpha, r) from that of (slope, intercept).
 [[nodiscard]] Eigen::Matrix2d to_normal_form(const AxisRegression& fit,

@@ -6,6 +6,25 @@
 
 namespace quoin {
 
+/// First step of the method: the line.
+[[nodiscard]] inline AxisRegression cwlf_line(const PointsView& points, const SensorModel& sensor) {
+  return fit_axis(points, AxisWeights::conditional, WeightVariances(sensor));
+}
+
+/// Second step: the covariance of (alpha, r) of that line.
+[[nodiscard]] inline Eigen::Matrix2d cwlf_covariance(const PointsView& points,
+                                                     const SensorModel& sensor,
+                                                     const AxisRegression& fit,
+                                                     CovarianceMode mode) {
+  if (mode == CovarianceMode::propagated) {
+    return to_normal_form(fit, axis_covariance(points, AxisWeights::conditional, fit, sensor));
+  }
+  // Eq. (31) and (32); the sums hold the weights times both variances.
+  const WeightVariances variances(sensor);
+  const double scale = variances.range * variances.bearing;
+  return to_normal_form(fit, {scale / fit.spread, 0.0, scale / fit.weight});
+}
+
 /// Conditional weighted linear fitting: regression of y on x, or of x on y where the points spread
 /// further along y (eq. 20 to 35), each point weighted by the inverse of its conditional variance
 /// (eq. 23, 34). The noise of the abscissa biases the slope.
@@ -28,17 +47,15 @@ class Cwlf {
   Cwlf() = default;
   explicit Cwlf(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    const AxisRegression fit = cwlf_line(points, sensor);
+    if (fit.failure != FitFailure::none) return FitResult::failed(fit.failure);
+    return FitResult::fitted(fit.line,
+                             cwlf_covariance(points, sensor, fit, parameters_.covariance));
+  }
 
  private:
   Parameters parameters_;
 };
-
-/// First step of the method: the line.
-[[nodiscard]] AxisRegression cwlf_line(const PointsView& points, const SensorModel& sensor);
-
-/// Second step: the covariance of (alpha, r) of that line.
-[[nodiscard]] Eigen::Matrix2d cwlf_covariance(const PointsView& points, const SensorModel& sensor,
-                                              const AxisRegression& fit, CovarianceMode mode);
 
 }  // namespace quoin

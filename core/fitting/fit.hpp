@@ -12,7 +12,6 @@
 #include "core/geometry/line.hpp"
 #include "core/parameters/parameter.hpp"
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 namespace quoin {
 
@@ -84,7 +83,7 @@ struct FitResult {
     return fitted(line, line.normal(), covariance);
   }
 
-  /// The same for who has the unit normal of the line already.
+  /// The same with the unit normal of the line, where it is known already.
   [[nodiscard]] static FitResult fitted(const Line& line, const Eigen::Vector2d& normal,
                                         const Eigen::Matrix2d& covariance) {
     if (!std::isfinite(line.alpha) || !std::isfinite(line.r) || !covariance.allFinite()) {
@@ -100,6 +99,13 @@ struct FitResult {
 
 /// Fits one line to all points of the view. Pure: same points, same line.
 using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
+
+/// The line with the projections of the first and the last of the points it was fitted to.
+[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const PointsView& points);
+
+/// The same with the unit normal of the line, which a FitResult has already.
+[[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
+                                       const PointsView& points);
 
 /// Sum over the points of the squared radial residual (rho - r / cos(phi)) over its variance; its
 /// expectation is size - 2 for a straight wall and a true sensor model.

@@ -19,7 +19,4 @@ namespace quoin {
 using Fitters = MethodList<Wctls, Utls, Wtls, Cwlf, ArrasSiegwart, Pca, LeastSquares,
                            MaximumLikelihood, InverseRange>;
 
-/// Compiled once, in fitters.cpp: it knows every method.
-extern template Fitter Fitters::make<Fitter>(std::string_view, const ParameterSettings&);
-
 }  // namespace quoin

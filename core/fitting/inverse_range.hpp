@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/algebraic.hpp"
+#include "core/fitting/normal_residuals.hpp"
 
 namespace quoin {
 
@@ -30,7 +31,31 @@ class InverseRange {
   InverseRange() = default;
   explicit InverseRange(const Parameters&) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    constexpr int steps = 2;
+    constexpr double longest_last_step = 0.25;  // standard deviations, squared
+    Eigen::Vector2d q;
+    const FitFailure failure = find_algebraic_line(points, PointWeights::inverse_square_range, q);
+    if (failure != FitFailure::none) return FitResult::failed(failure);
+    const WeightVariances variances(sensor);
+    const Eigen::Vector2d anchor(0.5 * (points.x.front() + points.x.back()),
+                                 0.5 * (points.y.front() + points.y.back()));
+    NormalLine line = normal_line(q);
+    for (int step = 1;; ++step) {
+      const NormalResiduals sums = normal_residuals(points, line, anchor, variances);
+      // Fisher's scoring: the information stands for the Hessian.
+      const auto change = solve2x2(sums.information, -sums.gradient);
+      if (!change) return FitResult::failed(reason_of_singularity(points));
+      line = moved(line, anchor, change->x);
+      if (step < steps) continue;
+      // Near the sensor, for the noise of the bearings, the regression is too far off to start
+      // from.
+      if (!(-change->x.dot(sums.gradient) <= longest_last_step)) {
+        return FitResult::failed(FitFailure::through_sensor);
+      }
+      return fitted(line, anchor, sums);
+    }
+  }
 };
 
 }  // namespace quoin

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/axis_regression.hpp"
 
 namespace quoin {
 
@@ -27,7 +27,17 @@ class LeastSquares {
   LeastSquares() = default;
   explicit LeastSquares(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    const bool from_residuals = parameters_.covariance == CovarianceMode::as_published;
+    if (from_residuals && points.size() < 3) return FitResult::failed(FitFailure::too_few_points);
+    const AxisRegression fit = fit_axis(points, AxisWeights::equal, WeightVariances(sensor));
+    if (fit.failure != FitFailure::none) return FitResult::failed(fit.failure);
+    const double variance = fit.residual / (fit.weight - 2.0);
+    const Symmetric2 covariance =
+        from_residuals ? Symmetric2{variance / fit.spread, 0.0, variance / fit.weight}
+                       : axis_covariance(points, AxisWeights::equal, fit, sensor);
+    return FitResult::fitted(fit.line, to_normal_form(fit, covariance));
+  }
 
  private:
   Parameters parameters_;

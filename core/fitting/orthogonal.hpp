@@ -5,34 +5,53 @@
 #include <Eigen/Core>
 
 #include "core/fitting/fit.hpp"
-#include "core/fitting/moments.hpp"
+#include "core/fitting/point_sums.hpp"
 
 namespace quoin {
 
-/// The line that minimises the weighted sum of squared distances of the points to it, with what its
-/// covariance needs. Defined for lines through the sensor too, where r is 0.
+/// The line that minimises the weighted sum of squared distances of the points to it: through their
+/// mean, along the eigenvector of the larger eigenvalue of their scatter matrix. Defined for lines
+/// through the sensor too, where the offset is 0.
 struct OrthogonalLine {
-  FitFailure failure = FitFailure::none;
-  Line line;
-  double normal_x = 1.0;  ///< cos(alpha)
-  double normal_y = 0.0;  ///< sin(alpha)
-  Moments moments;
-  double across = 0.0;  ///< weighted sum of squares of the distances from the line
-  double along = 0.0;   ///< weighted sum of squares along the line, about the mean
+  FitFailure failure = FitFailure::degenerate;
+  NormalLine line;
+  CentralMoments moments;
+  double across = 0.0;  ///< smaller eigenvalue: sum of squared distances from the line, not < 0
+  double along = 0.0;   ///< larger one: sum of squares along the line, about the mean
+
+  [[nodiscard]] bool ok() const { return failure == FitFailure::none; }
 
   /// Coordinate of the mean along the line [m].
   [[nodiscard]] double tangential_mean() const {
-    return moments.mean_y * normal_x - moments.mean_x * normal_y;
+    return line.along(moments.mean_x, moments.mean_y);
   }
 };
 
-/// Through the weighted mean, along the eigenvector of the larger eigenvalue of the spread.
+/// From moments alone; the offset may be negative.
+[[nodiscard]] OrthogonalLine orthogonal_line(const CentralMoments& moments);
+
+/// The same from moments about the sensor. They lose digits: what rounding leaves of points at this
+/// distance is no direction.
+[[nodiscard]] OrthogonalLine orthogonal_line(const Moments& moments);
+
+/// The line of the points, with an offset that is not negative.
 [[nodiscard]] OrthogonalLine fit_orthogonal(const PointsView& points, PointWeights weights);
+
+/// The line of `fit_orthogonal` with its covariance.
+[[nodiscard]] inline FitResult fitted(const OrthogonalLine& fit,
+                                      const Eigen::Matrix2d& covariance) {
+  return FitResult::fitted(fit.line.normal_form(), {fit.line.normal_x, fit.line.normal_y},
+                           covariance);
+}
 
 /// Covariance of (alpha, r) as the sum of the first-order contributions of range and bearing noise
 /// of each point, the weights differentiated with the range.
 [[nodiscard]] Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights weights,
                                                     const OrthogonalLine& fit,
                                                     double range_variance, double bearing_variance);
+
+/// Textbook covariance of (alpha, r), which takes the scale of the noise from the residuals. Equal
+/// weights, at least three points.
+[[nodiscard]] Eigen::Matrix2d residual_covariance(const OrthogonalLine& fit);
 
 }  // namespace quoin

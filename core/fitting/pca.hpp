@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/orthogonal.hpp"
 
 namespace quoin {
 
@@ -28,7 +28,17 @@ class Pca {
   Pca() = default;
   explicit Pca(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    const bool from_residuals = parameters_.covariance == CovarianceMode::as_published;
+    if (from_residuals && points.size() < 3) return FitResult::failed(FitFailure::too_few_points);
+    const OrthogonalLine fit = fit_orthogonal(points, PointWeights::equal);
+    if (!fit.ok()) return FitResult::failed(fit.failure);
+    return fitted(fit, from_residuals
+                           ? residual_covariance(fit)
+                           : orthogonal_covariance(points, PointWeights::equal, fit,
+                                                   sensor.range_stddev * sensor.range_stddev,
+                                                   sensor.bearing_stddev * sensor.bearing_stddev));
+  }
 
  private:
   Parameters parameters_;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/algebraic.hpp"
 
 namespace quoin {
 
@@ -26,7 +26,12 @@ class Utls {
   Utls() = default;
   explicit Utls(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, PointWeights::equal, sensor,
+                         parameters_.covariance == CovarianceMode::as_published
+                             ? CountedErrors::common
+                             : CountedErrors::independent_and_bias);
+  }
 
  private:
   Parameters parameters_;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/algebraic.hpp"
 
 namespace quoin {
 
@@ -31,7 +31,13 @@ class Wctls {
   Wctls() = default;
   explicit Wctls(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    // q = (A, B) = (x_Q, -y_Q): the signs cancel in (alpha, r).
+    return fit_algebraic(points, PointWeights::inverse_square_range, sensor,
+                         parameters_.covariance == CovarianceMode::as_published
+                             ? CountedErrors::independent
+                             : CountedErrors::independent_and_bias);
+  }
 
  private:
   Parameters parameters_;

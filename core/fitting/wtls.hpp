@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/fit.hpp"
+#include "core/fitting/algebraic.hpp"
 
 namespace quoin {
 
@@ -28,7 +28,12 @@ class Wtls {
   Wtls() = default;
   explicit Wtls(const Parameters& parameters) : parameters_(parameters) {}
 
-  FitResult operator()(const PointsView& points, const SensorModel& sensor) const;
+  FitResult operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, PointWeights::inverse_square_range, sensor,
+                         parameters_.covariance == CovarianceMode::as_published
+                             ? CountedErrors::common
+                             : CountedErrors::independent_and_bias);
+  }
 
  private:
   Parameters parameters_;

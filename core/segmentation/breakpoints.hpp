@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/segmentation/coarse_points.hpp"
 #include "core/segmentation/segment.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin {
 

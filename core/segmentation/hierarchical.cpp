@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/segmentation/peaks.hpp"
-#include "core/segmentation/runs.hpp"
-
 namespace quoin {
 namespace {
 
@@ -90,8 +87,8 @@ void Hierarchical::compute_changes(const PointsView& points, const Segment& clus
 
 void Hierarchical::add(const PointsView& points, const Segment& piece) {
   if (piece.size() < fewest_in_cluster) return;
-  const auto fit = orthogonal_fit(moments_(piece.begin, piece.end));
-  if (!fit || !(fit->along > parameters_.eigenvalue_ratio * fit->across)) return;
+  const OrthogonalLine fit = orthogonal_line(moments_(piece.begin, piece.end));
+  if (!fit.ok() || !(fit.along > parameters_.eigenvalue_ratio * fit.across)) return;
   // A long wall with a niche is elongated too.
   const Segment straight = straight_run(points, moments_, piece, builder_.tolerance());
   if (straight.size() >= fewest_in_cluster) builder_.add(straight);

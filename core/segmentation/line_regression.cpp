@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/segmentation/peaks.hpp"
-
 namespace quoin {
 namespace {
 
@@ -24,9 +22,9 @@ void LineRegression::compare_windows(const Segment& cluster) {
     const std::size_t before = std::min(window_, i - cluster.begin);
     const std::size_t behind = std::min(window_, cluster.end - i);
     if (before < smallest_window || behind < smallest_window) continue;
-    const auto joint =
-        joint_fit(moments_(i - before, i), moments_(i, i + behind), builder_.tolerance());
-    if (joint) distance_[i] = joint->distance;
+    distance_[i] =
+        squared_mahalanobis(moments_(i - before, i), moments_(i, i + behind), builder_.tolerance())
+            .value_or(0.0);
   }
 }
 

@@ -6,9 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "core/segmentation/moment_sums.hpp"
+#include "core/segmentation/runs.hpp"
 #include "core/segmentation/segment_builder.hpp"
-#include "core/segmentation/straight_runs.hpp"
 
 namespace quoin {
 

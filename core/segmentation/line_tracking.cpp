@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segmentation/line_tracking.hpp"
 
-#include "core/segmentation/moment_sums.hpp"
 #include "core/segmentation/runs.hpp"
 
 namespace quoin {
@@ -20,15 +19,15 @@ LineTracking::LineTracking(const Parameters& parameters)
 std::size_t LineTracking::track(const PointsView& points, std::size_t begin,
                                 std::size_t end) const {
   const Tolerance& tolerance = builder_.tolerance();
-  MomentSums moments;
+  Moments moments;
   for (std::size_t i = begin; i < end; ++i) {
     if (i >= begin + fewest_to_predict) {
-      const auto fit = orthogonal_fit(moments);
-      const double excess = fit ? excess_of(fit->line, points, i, tolerance) : 0.0;
+      const OrthogonalLine fit = orthogonal_line(moments);
+      const double excess = fit.ok() ? excess_of(fit.line, points, i, tolerance) : 0.0;
       if (excess > 1.0) {
         if (look_ahead_ == 0 || excess > largest_outlier || i + look_ahead_ >= end) return i;
         for (std::size_t k = i + 1; k <= i + look_ahead_; ++k) {
-          if (excess_of(fit->line, points, k, tolerance) > 1.0) return i;
+          if (excess_of(fit.line, points, k, tolerance) > 1.0) return i;
         }
         continue;
       }

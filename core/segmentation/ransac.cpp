@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/segmentation/runs.hpp"
-
 namespace quoin {
 namespace {
 

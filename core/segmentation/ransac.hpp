@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/segmentation/moment_sums.hpp"
+#include "core/segmentation/runs.hpp"
 #include "core/segmentation/segment_builder.hpp"
 #include "core/simulation/random.hpp"
 

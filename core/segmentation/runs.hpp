@@ -3,13 +3,39 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
 
-#include "core/segmentation/moment_sums.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/tolerance.hpp"
 #include "core/sensor/points.hpp"
 
 namespace quoin {
+
+/// Running sums over the points of a scan, which give the moments of any run of them at once.
+class PrefixMoments {
+ public:
+  void assign(const PointsView& points);
+
+  /// Of points [begin, end).
+  [[nodiscard]] Moments operator()(std::size_t begin, std::size_t end) const;
+
+ private:
+  std::vector<Moments> sums_;  // of the points before i
+};
+
+/// Squared Mahalanobis distance of the lines of two sets of points. For equal noise it is how much
+/// the sum of squared residuals rises, in variances, when one line must serve both; chi square with
+/// two degrees of freedom when they are the same. Nothing when both together have no line.
+[[nodiscard]] std::optional<double> squared_mahalanobis(const Moments& first, const Moments& second,
+                                                        const Tolerance& tolerance);
+
+/// Whether value `i` is above `limit` and the largest of those up to `reach` indices away inside
+/// `range`; of equal ones the first is.
+[[nodiscard]] bool is_peak(std::span<const double> values, const Segment& range, std::size_t i,
+                           std::size_t reach, double limit);
 
 /// Squared distance of point `i` from the line in units of its squared tolerance.
 [[nodiscard]] double excess_of(const NormalLine& line, const PointsView& points, std::size_t i,
@@ -41,5 +67,24 @@ inline constexpr std::size_t largest_gap_in_run = 2;
 /// The straight run of a piece: the longest near the line of all its points, refined inside it.
 [[nodiscard]] Segment straight_run(const PointsView& points, const PrefixMoments& moments,
                                    const Segment& piece, const Tolerance& tolerance);
+
+/// Takes pieces apart that methods which look at neighbours only believe to be one line, such as an
+/// arc or walls at a blunt corner. Keeps its memory.
+class StraightRuns {
+ public:
+  /// The straight run of a piece, that of what is before it, and so on: ascending, of at least 3
+  /// points each; the piece itself when it is straight. Valid until the next call.
+  [[nodiscard]] std::span<const Segment> find(const PointsView& points,
+                                              const PrefixMoments& moments, const Segment& piece,
+                                              const Tolerance& tolerance);
+
+ private:
+  struct Candidate {
+    Segment segment;
+    bool straight = false;
+  };
+  std::vector<Candidate> stack_;  // still to be judged, the leftmost on top
+  std::vector<Segment> runs_;
+};
 
 }  // namespace quoin

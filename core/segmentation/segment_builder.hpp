@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "core/segmentation/breakpoints.hpp"
-#include "core/segmentation/coarse_points.hpp"
-#include "core/segmentation/piece.hpp"
+#include "core/segmentation/pieces.hpp"
 #include "core/segmentation/segment.hpp"
-#include "core/segmentation/segmentation_parameters.hpp"
 #include "core/segmentation/tolerance.hpp"
 
 namespace quoin {

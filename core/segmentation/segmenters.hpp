@@ -19,7 +19,4 @@ namespace quoin {
 using Segmenters = MethodList<Iepf, SplitAndMerge, SuccessiveEdgeFollowing, LineTracking,
                               LineRegression, Ransac, Hough, ExpectationMaximization, Hierarchical>;
 
-/// Compiled once, in segmenters.cpp: it knows every method.
-extern template Segmenter Segmenters::make<Segmenter>(std::string_view, const ParameterSettings&);
-
 }  // namespace quoin

@@ -30,10 +30,10 @@ SplitAndMerge::SplitAndMerge(const Parameters& parameters) : builder_(parameters
 
 std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& piece) const {
   if (piece.size() < 2 * fewest_to_split + 1) return piece.begin;
-  const auto fit = orthogonal_fit(moments_(piece.begin, piece.end));
-  if (!fit) return piece.begin;
+  const OrthogonalLine fit = orthogonal_line(moments_(piece.begin, piece.end));
+  if (!fit.ok()) return piece.begin;
   const FarthestPoint farthest =
-      farthest_from(fit->line, points.subview(piece.begin, piece.end), builder_.tolerance());
+      farthest_from(fit.line, points.subview(piece.begin, piece.end), builder_.tolerance());
   if (!farthest.beyond()) return piece.begin;
   if (farthest.index >= fewest_to_split && farthest.index + fewest_to_split < piece.size()) {
     return piece.begin + farthest.index;
@@ -41,8 +41,8 @@ std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& pi
   // The line through two walls is as far from their outer ends as from their corner, which is on
   // its other side.
   const std::size_t end = piece.begin + farthest.index;
-  const double distance = fit->line.distance(points.x[end], points.y[end]);
-  return farthest_on_side(points, piece, fit->line, distance > 0.0 ? -1.0 : 1.0);
+  const double distance = fit.line.distance(points.x[end], points.y[end]);
+  return farthest_on_side(points, piece, fit.line, distance > 0.0 ? -1.0 : 1.0);
 }
 
 void SplitAndMerge::split(const PointsView& points, const Segment& cluster) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/segmentation/moment_sums.hpp"
+#include "core/segmentation/runs.hpp"
 #include "core/segmentation/segment_builder.hpp"
 
 namespace quoin {

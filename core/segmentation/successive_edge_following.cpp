@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/algebraic.hpp"
 
 namespace quoin {
 namespace {
@@ -12,16 +12,17 @@ namespace {
 // Two ranges have a slope, but it is all noise.
 constexpr std::size_t fewest_to_predict = 5;
 
-/// Adds the terms of point `i`, or takes them away when `sign` is -1.
-void add(const PointsView& points, std::size_t i, double sign, InverseRangeSums& sums) {
+/// Adds the terms of point `i` with the weight 1 / range^2, or takes them away when `sign` is -1.
+void add(const PointsView& points, std::size_t i, double sign, Moments& sums) {
   const double cosine = points.cosine[i];
   const double sine = points.sine[i];
   const double inverse = points.inverse_range[i];
-  sums.cc += sign * cosine * cosine;
-  sums.cs += sign * cosine * sine;
-  sums.ss += sign * sine * sine;
-  sums.cz += sign * cosine * inverse;
-  sums.sz += sign * sine * inverse;
+  sums.weight += sign * inverse * inverse;
+  sums.x += sign * cosine * inverse;
+  sums.y += sign * sine * inverse;
+  sums.xx += sign * cosine * cosine;
+  sums.xy += sign * cosine * sine;
+  sums.yy += sign * sine * sine;
 }
 
 /// Whether the range of point `i` is off what the line A x + B y = 1 through `count` ranges says.
@@ -48,13 +49,13 @@ SuccessiveEdgeFollowing::SuccessiveEdgeFollowing(const Parameters& parameters)
 
 std::size_t SuccessiveEdgeFollowing::follow(const PointsView& points, std::size_t begin,
                                             std::size_t end) const {
-  InverseRangeSums sums;
+  Moments sums;
   std::size_t oldest = begin;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t count = i - oldest;
     if (count >= fewest_to_predict) {
-      const auto line = solve_inverse_line({sums.cc, sums.cs, sums.ss}, sums.cz, sums.sz);
-      if (line && is_edge(points, i, line->q, count, builder_.tolerance())) return i;
+      const auto line = solve_algebraic(sums);
+      if (line && is_edge(points, i, line->x, count, builder_.tolerance())) return i;
     }
     if (count == slope_points_) add(points, oldest++, -1.0, sums);
     add(points, i, 1.0, sums);

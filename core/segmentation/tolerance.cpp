@@ -11,8 +11,8 @@
 namespace quoin {
 namespace {
 
-/// The largest of all measure(i) for i < count, and its place when it is more than `limit`. Most
-/// segments are straight: the maximum alone is found by vector instructions, and its place is
+/// The largest of all measure(i) for i < count, and its index when it is more than `limit`. Most
+/// segments are straight: the maximum alone is found by vector instructions, and its index is
 /// searched for when it matters.
 template <class Number, class Measure>
 [[gnu::always_inline]] inline FarthestPoint largest_of(std::size_t count, Number limit,
@@ -30,8 +30,8 @@ template <class Number, class Measure>
   const auto none = static_cast<Number>(end);
   Number first = none;
   for (int i = 0; i < end; ++i) {
-    const Number place = measure(i) >= almost ? static_cast<Number>(i) : none;
-    first = place < first ? place : first;
+    const Number index = measure(i) >= almost ? static_cast<Number>(i) : none;
+    first = index < first ? index : first;
   }
   return {static_cast<std::size_t>(first), static_cast<double>(largest)};
 }
@@ -139,7 +139,7 @@ FarthestPoint farthest_from_chord(const PointsView& points, const CoarsePoints& 
     }
     if (farthest.excess + tolerance.largest <= squared) return farthest;
   }
-  // The contour of a whole room begins and ends at one place: the direction of so short a chord is
+  // The contour of a whole room begins and ends at one point: the direction of so short a chord is
   // noise, and all points of a wall that it happens to be parallel to are equally far from it.
   farthest_from_first(&points.x[first], &points.y[first], chord.size(), tolerance.largest,
                       farthest);

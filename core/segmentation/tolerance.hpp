@@ -4,11 +4,9 @@
 
 #include <cstddef>
 
-#include "core/segmentation/coarse_points.hpp"
+#include "core/geometry/line.hpp"
 #include "core/segmentation/segment.hpp"
-#include "core/segmentation/segmentation_parameters.hpp"
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 namespace quoin {
 
@@ -44,17 +42,9 @@ struct Tolerance {
   }
 };
 
-/// A line by its unit normal: normal_x x + normal_y y = offset.
-struct NormalLine {
-  double normal_x = 1.0;
-  double normal_y = 0.0;
-  double offset = 0.0;  ///< [m]
-
-  /// Signed [m], of the point (x, y) [m].
-  [[nodiscard]] double distance(double x, double y) const {
-    return normal_x * x + normal_y * y - offset;
-  }
-};
+/// A tolerance is at least so many standard deviations (the default noise_factor); walls that are
+/// not as straight as a line are given the same margin.
+inline constexpr double deviations_in_tolerance = 4.0;
 
 /// Whether point `i` is farther from the line than its tolerance.
 [[nodiscard]] inline bool is_beyond(const NormalLine& line, const PointsView& points, std::size_t i,

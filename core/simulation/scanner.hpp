@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/pose.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/random.hpp"
 #include "core/simulation/world.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "core/evaluation/consistency.hpp"
 #include "core/geometry/angle.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 #include "core/statistics/interval.hpp"
 #include "deploy/evaluation/drawing/plot.hpp"
 

@@ -6,8 +6,8 @@
 #include <idl/Lines.h>
 #include <vector>
 
-#include "core/corners/corner_finder.hpp"
 #include "core/fitting/fit.hpp"
+#include "core/geometry/line.hpp"
 
 namespace quoin::topics {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/segmentation/segment.hpp"
+#include "core/sensor/points.hpp"
 #include "core/sensor/scan.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 namespace quoin::topics {
 

@@ -12,7 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/evaluation/fit_timing.hpp"
-#include "core/fitting/arras_siegwart_literal.hpp"
+#include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/fitting/fitters.hpp"
 
 namespace {

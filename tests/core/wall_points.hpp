@@ -9,7 +9,6 @@
 
 #include "core/geometry/line.hpp"
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 namespace quoin {
 

@@ -8,7 +8,6 @@
 #include "core/evaluation/scene.hpp"
 #include "core/evaluation/stopwatch.hpp"
 #include "core/fitting/arras_siegwart.hpp"
-#include "core/fitting/arras_siegwart_literal.hpp"
 #include "core/fitting/cwlf.hpp"
 
 namespace quoin {
@@ -30,12 +29,17 @@ struct CwlfForm {
 };
 
 struct ArrasSiegwartForm {
-  static OrthogonalLine line(const PointsView& points, const SensorModel&) {
-    return arras_siegwart_line(points);
+  struct Fit {
+    OrthogonalLine axes;
+    Line line;
+  };
+  static Fit line(const PointsView& points, const SensorModel&) {
+    const OrthogonalLine axes = arras_siegwart_line(points);
+    return {axes, axes.line.normal_form()};
   }
   static Eigen::Matrix2d covariance(const PointsView& points, const SensorModel& sensor,
-                                    const OrthogonalLine& fit, CovarianceMode mode) {
-    return arras_siegwart_covariance(points, sensor, fit, mode);
+                                    const Fit& fit, CovarianceMode mode) {
+    return arras_siegwart_covariance(points, sensor, fit.axes, mode);
   }
 };
 
@@ -184,6 +188,37 @@ CwlfPaperEnvironment measure_cwlf_paper(const World& world, const std::vector<Na
     result.methods.push_back(std::move(method));
   }
   return result;
+}
+
+Line arras_siegwart_literal(const PointsView& points, const SensorModel& sensor) {
+  const std::size_t n = points.size();
+  const auto weight = [&](std::size_t i) {  // eq. (3)
+    const double root = sensor.range_stddev * points.range[i] * sensor.bearing_stddev;
+    return 1.0 / (root * root);
+  };
+  double weights = 0.0;
+  double single_sine = 0.0;
+  double single_cosine = 0.0;
+  double double_sine = 0.0;
+  double double_cosine = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w = weight(i);
+    weights += w;
+    single_sine += w * points.range[i] * points.range[i] * std::sin(2.0 * points.bearing[i]);
+    single_cosine += w * points.range[i] * points.range[i] * std::cos(2.0 * points.bearing[i]);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double product = w * points.range[i] * weight(k) * points.range[k];
+      double_sine += product * std::sin(points.bearing[i]) * std::cos(points.bearing[k]);
+      double_cosine += product * std::cos(points.bearing[i] + points.bearing[k]);
+    }
+  }
+  const double alpha = 0.5 * std::atan2(2.0 / weights * double_sine - single_sine,
+                                        1.0 / weights * double_cosine - single_cosine);
+  double r = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    r += weight(i) * points.range[i] * std::cos(points.bearing[i] - alpha);
+  }
+  return normalized(LineEstimate{{alpha, r / weights}, {}}).line;
 }
 
 std::vector<CwlfPaperCorner> cwlf_paper_corners() {

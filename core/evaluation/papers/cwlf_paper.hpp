@@ -69,6 +69,11 @@ struct CwlfPaperCorner {
   CornerTimes times;
 };
 
+/// The line of eq. (16) and (17) with their double sums over all pairs of points, to compare its
+/// time with. The factor printed as the sum of the weights before both double sums is its inverse.
+/// Same line as `arras_siegwart_line`; at least two different points, checks nothing.
+[[nodiscard]] Line arras_siegwart_literal(const PointsView& points, const SensorModel& sensor);
+
 /// The corners of Figs. 3 to 5, not computed yet: one of 130 degrees with 10 to 100000 points, the
 /// literal form with up to 1000, and one of 90 degrees with 50 and 100.
 [[nodiscard]] std::vector<CwlfPaperCorner> cwlf_paper_corners();

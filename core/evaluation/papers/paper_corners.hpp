@@ -9,7 +9,7 @@
 #include "core/fitting/fit.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/corner.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin {
 

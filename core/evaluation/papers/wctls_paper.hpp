@@ -10,7 +10,7 @@
 #include "core/corners/corner_finder.hpp"
 #include "core/evaluation/papers/paper_corners.hpp"
 #include "core/segmentation/segment.hpp"
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/world.hpp"
 
 namespace quoin {

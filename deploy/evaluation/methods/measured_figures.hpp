@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/sensor/sensor_model.hpp"
+#include "core/sensor/points.hpp"
 
 namespace quoin::deploy {
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/fitting/arras_siegwart_literal.hpp"
+#include "core/evaluation/papers/cwlf_paper.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 
@@ -16,7 +16,8 @@ TEST(ArrasSiegwart, IsTheLineOfThePublishedDoubleSums) {
   for (const double alpha : {0.0, 0.4, 1.5, 2.6, 3.1, -0.7, -2.2, -3.1}) {
     const Points p = wall_points({alpha, 1.9}, alpha - 0.9, alpha + 0.3, 50, noisy, engine);
     const Line literal = arras_siegwart_literal(p, noisy);
-    EXPECT_THAT(arras_siegwart_line(p).line, LineNear(literal.alpha, literal.r, 1e-12));
+    EXPECT_THAT(arras_siegwart_line(p).line.normal_form(),
+                LineNear(literal.alpha, literal.r, 1e-12));
   }
 }
 
@@ -33,8 +34,8 @@ TEST(ArrasSiegwart, IsItsTwoSteps) {
   for (const CovarianceMode mode : {CovarianceMode::propagated, CovarianceMode::as_published}) {
     const FitResult fit = ArrasSiegwart({mode})(p, noisy);
     const OrthogonalLine line = arras_siegwart_line(p);
-    EXPECT_EQ(fit.estimate.line.alpha, line.line.alpha);
-    EXPECT_EQ(fit.estimate.line.r, line.line.r);
+    EXPECT_EQ(fit.estimate.line.alpha, line.line.normal_form().alpha);
+    EXPECT_EQ(fit.estimate.line.r, line.line.offset);
     EXPECT_EQ(fit.estimate.covariance, arras_siegwart_covariance(p, noisy, line, mode));
   }
 }

@@ -178,5 +178,13 @@ TEST(ChiSquare, ExpectsTwoLessThanThePoints) {
       true);
 }
 
+TEST(LineSegmentOf, ProjectsTheEnds) {
+  const Points points = exact_wall_points({0.5, 2.0}, 0.2, 0.7, 10);
+  const LineSegment s = line_segment({{0.5, 2.0}, {}}, points);
+  EXPECT_NEAR((s.start - Eigen::Vector2d(points.x[0], points.y[0])).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((s.end - Eigen::Vector2d(points.x[9], points.y[9])).norm(), 0.0, 1e-14);
+  EXPECT_EQ(line_segment({}, PointsView{}).start, Eigen::Vector2d::Zero());
+}
+
 }  // namespace
 }  // namespace quoin

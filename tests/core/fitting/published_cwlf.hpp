@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 /// The equations of Prieto-Fernandez et al. 2024 as printed (misprints corrected where noted), to
 /// compare the fitters with. Slow and literal on purpose.

@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include "core/sensor/points.hpp"
-#include "core/sensor/sensor_model.hpp"
 
 /// The equations of Prieto-Fernandez et al. 2026 as printed, to compare the fitters with. Slow and
 /// literal on purpose.

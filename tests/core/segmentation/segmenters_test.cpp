@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/segmentation/moment_sums.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "tests/core/segmentation/segmenter_scans.hpp"
 #include "tests/core/wall_points.hpp"
 
@@ -47,14 +47,14 @@ TEST_P(EverySegmenter, SplitsARoomIntoItsFourWalls) {
 
 /// How far the points of a segment are from their own line, in tolerances.
 double worst_distance(const Points& points, const Segment& segment, const Tolerance& tolerance) {
-  MomentSums moments;
+  Moments moments;
   for (std::size_t i = segment.begin; i < segment.end; ++i) moments.add(points.x[i], points.y[i]);
-  const auto fit = orthogonal_fit(moments);
-  if (!fit) return 0.0;
+  const OrthogonalLine fit = orthogonal_line(moments);
+  if (!fit.ok()) return 0.0;
   double worst = 0.0;
   for (std::size_t i = segment.begin; i < segment.end; ++i) {
-    const double distance = fit->line.distance(points.x[i], points.y[i]);
-    const double allowed = tolerance.squared(points, i, fit->line.normal_x, fit->line.normal_y);
+    const double distance = fit.line.distance(points.x[i], points.y[i]);
+    const double allowed = tolerance.squared(points, i, fit.line.normal_x, fit.line.normal_y);
     worst = std::max(worst, std::abs(distance) / std::sqrt(allowed));
   }
   return worst;

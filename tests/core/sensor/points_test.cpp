@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/sensor/polar.hpp"
+#include "core/sensor/points.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include "core/fitting/fit.hpp"
+
 #include <cmath>
 #include <limits>
 
-#include "core/fitting/fit.hpp"
 #include "core/sensor/multiversion.hpp"
 
 namespace quoin {
@@ -31,6 +32,24 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
 }
 
 }  // namespace
+
+LineSegment line_segment(const LineEstimate& estimate, const PointsView& points) {
+  return line_segment(estimate, estimate.line.normal(), points);
+}
+
+LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
+                         const PointsView& points) {
+  LineSegment segment;
+  segment.estimate = estimate;
+  if (points.size() == 0) return segment;
+  const auto projection = [&](std::size_t i) -> Eigen::Vector2d {
+    const Eigen::Vector2d point(points.x[i], points.y[i]);
+    return point - (normal.dot(point) - estimate.line.r) * normal;
+  };
+  segment.start = projection(0);
+  segment.end = projection(points.size() - 1);
+  return segment;
+}
 
 double chi_square(const Line& line, const PointsView& points, const SensorModel& sensor) {
   const Eigen::Vector2d normal = line.normal();
