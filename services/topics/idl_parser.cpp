@@ -14,7 +14,7 @@ namespace quoin::topics {
 
 namespace {
 
-constexpr std::size_t deepest_nesting = 16;  // of modules, and of sequences
+constexpr std::size_t deepest_declaration = 16;  // of modules, and of sequences
 constexpr std::size_t most_types = 10'000;   // fields included; a recording may come from anybody
 
 // Annotations that change nothing of what is sent.
@@ -161,7 +161,7 @@ class Parser {
   }
 
   void module() {
-    if (modules_.size() >= deepest_nesting) fail("modules are nested too deeply");
+    if (modules_.size() >= deepest_declaration) fail("modules are nested too deeply");
     modules_.push_back(name());
     expect("{");
     while (!accept("}")) definition();
@@ -204,7 +204,7 @@ class Parser {
     }
     std::vector<std::size_t> bounds;
     while (accept("[")) {
-      if (bounds.size() >= deepest_nesting) fail("an array has too many dimensions");
+      if (bounds.size() >= deepest_declaration) fail("an array has too many dimensions");
       bounds.push_back(positive_number());
       expect("]");
     }
@@ -257,7 +257,7 @@ class Parser {
   }
 
   std::size_t type_reference(std::size_t depth) {
-    if (depth >= deepest_nesting) fail("sequences are nested too deeply");
+    if (depth >= deepest_declaration) fail("sequences are nested too deeply");
     if (const auto kind = primitive()) return add({*kind});
     if (accept("string")) {
       IdlType type{IdlKind::string};

@@ -54,7 +54,8 @@ std::string services(bool composed) {
 class Chain {
  public:
   Chain(bool composed, bool lossless)
-      : deployment_(services(composed), lossless ? "qos: lossless\n" : ""),
+      : deployment_(services(composed), lossless ? "qos: lossless\n" : "", "quoin",
+                    composed ? "_composed" : "_separate"),
         participant_(deployment_.participant("benchmark")),
         scans_(participant_, deployment_.topic("front"),
                lossless ? runtime::QosPreset::lossless : runtime::QosPreset::sensor),

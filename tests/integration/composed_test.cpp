@@ -119,7 +119,7 @@ TEST(Composed, MethodsAndParametersAreExchangedInside) {
   CornerRecorder corners(run.participant(), run.deployment(), "corners");
   run.up();
   ASSERT_TRUE(corners.wait_for(20)) << run.log();
-  Process swap = run.tool({"swap", "FILE", "wctls", "utls"});
+  Process swap = run.tool({"swap", "wctls", "utls", "--deployment", "FILE"});
   if (swap.wait(20s) != 0) {
     GTEST_FAIL() << swap.output() << swap.errors();
   }
@@ -139,7 +139,7 @@ TEST(Composed, AKilledProcessComesBackAndItsLossesAreThoseOfItsServices) {
   ASSERT_TRUE(corners.wait_for(corners.poll() + 20)) << run.log();
   const json figures = run.end();
   for (const std::string& service : stages) {
-    EXPECT_EQ(figures["services"][service]["restarts"], 1) << service;
+    EXPECT_EQ(figures["services"][service]["restarts"], 1) << service << run.log();
   }
 }
 

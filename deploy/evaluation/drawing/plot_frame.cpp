@@ -18,7 +18,7 @@ constexpr double mark_width = 34.0;
 constexpr std::size_t colours = 8;
 
 // Colours after Okabe and Ito, which the colour-blind can tell apart; brighter on dark.
-constexpr StyleSheet style{
+constexpr StyleSheet plot_style{
     "text{font-family:system-ui,sans-serif;font-size:13px;fill:#24292f}"
     ".title{font-size:15px;font-weight:600}.tick{font-size:12px;fill:#57606a}"
     ".middle{text-anchor:middle}.end{text-anchor:end}"
@@ -99,7 +99,7 @@ PlotFrame::PlotFrame(const std::string& title, const std::vector<LegendEntry>& l
       right(plot_width - right_margin),
       top(top_of(legend)),
       bottom(top_of(legend) + height),
-      svg_(plot_width, top_of(legend) + height + axis_height, "plot", style) {
+      svg_(plot_width, top_of(legend) + height + axis_height, "plot", plot_style) {
   svg_.text("title", legend_left(), 26.0, title);
   draw_legend(legend);
 }

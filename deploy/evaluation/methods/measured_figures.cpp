@@ -13,23 +13,21 @@ namespace quoin::deploy {
 
 namespace {
 
-using Json = nlohmann::json;
-
 /// An object of the report, which knows where it is.
 class Node {
  public:
-  Node(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+  Node(const nlohmann::json& json, std::string place) : json_(json), place_(std::move(place)) {
     if (!json.is_object()) throw ReportError(place_ + " is not an object");
   }
 
   [[nodiscard]] std::string text(const char* name) const {
-    return value(name, "a text", &Json::is_string).get<std::string>();
+    return value(name, "a text", &nlohmann::json::is_string).get<std::string>();
   }
   [[nodiscard]] double number(const char* name) const {
-    return value(name, "a number", &Json::is_number).get<double>();
+    return value(name, "a number", &nlohmann::json::is_number).get<double>();
   }
   [[nodiscard]] std::uint64_t count(const char* name) const {
-    return value(name, "a whole number", &Json::is_number_unsigned).get<std::uint64_t>();
+    return value(name, "a whole number", &nlohmann::json::is_number_unsigned).get<std::uint64_t>();
   }
   [[nodiscard]] std::optional<double> number_or_null(const char* name) const {
     if (member(name).is_null()) return std::nullopt;
@@ -43,14 +41,14 @@ class Node {
   }
   [[nodiscard]] std::vector<Node> objects(const char* name) const {
     std::vector<Node> nodes;
-    for (const Json& json : value(name, "an array", &Json::is_array)) {
+    for (const nlohmann::json& json : value(name, "an array", &nlohmann::json::is_array)) {
       nodes.emplace_back(json, place_ + ": " + name + "[" + std::to_string(nodes.size()) + "]");
     }
     return nodes;
   }
 
  private:
-  [[nodiscard]] const Json& member(const char* name) const {
+  [[nodiscard]] const nlohmann::json& member(const char* name) const {
     const auto found = json_.find(name);
     if (found == json_.end()) {
       throw ReportError(place_ + ": no '" + name + "'; quoin evaluate writes the report anew");
@@ -58,26 +56,26 @@ class Node {
     return *found;
   }
 
-  [[nodiscard]] const Json& value(const char* name, const char* type,
-                                  bool (Json::*is)() const noexcept) const {
-    const Json& json = member(name);
+  [[nodiscard]] const nlohmann::json& value(const char* name, const char* type,
+                                            bool (nlohmann::json::*is)() const noexcept) const {
+    const nlohmann::json& json = member(name);
     if (!(json.*is)()) throw ReportError(place_ + ": '" + name + "' is not " + type);
     return json;
   }
 
-  const Json& json_;
+  const nlohmann::json& json_;
   std::string place_;
 };
 
 }  // namespace
 
 MeasuredFigures parse_figures(std::string_view text, const std::string& name) {
-  Json json;
+  nlohmann::json json;
   try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+    json = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
     throw ReportError(name + ": not JSON from byte " + std::to_string(error.byte) + " on");
-  } catch (const Json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     throw ReportError(name + ": a number is too large");
   }
   const Node report(json, name);

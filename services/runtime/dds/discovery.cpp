@@ -22,10 +22,17 @@ namespace quoin::runtime {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
+std::string printable(std::string text) {
+  constexpr std::size_t longest = 80;
+  text.resize(std::min(text.size(), longest));
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~' || c == '\''; }, '?');
+  return text;
+}
+
 namespace {
 
 // Names come from anybody in the domain and go to terminals and heartbeats.
-constexpr std::size_t longest_name = 80;
 constexpr std::size_t most_misfits = 32;
 
 // What user data begins with that announces topics. Numbers of 32 bits follow, least significant
@@ -62,14 +69,6 @@ std::set<std::uint32_t> announced_topics(const std::vector<std::uint8_t>& data) 
                   static_cast<std::uint32_t>(data[i + 3]) << 24U);
   }
   return topics;
-}
-
-std::string printable(const std::string& text) {
-  std::string result = text.substr(0, longest_name);
-  std::replace_if(
-      result.begin(), result.end(),
-      [](char character) { return character < ' ' || character > '~'; }, '?');
-  return result;
 }
 
 std::string chosen(const std::vector<const char*>& names, int value) {

@@ -29,6 +29,9 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
+/// What a stranger calls itself, fit for a log.
+[[nodiscard]] std::string printable(std::string text);
+
 /// What a participant announces about the topics that it observes, as its user data. Bounded, so
 /// that the announcement stays one datagram: of more than 128 topics the rest is left out. Only an
 /// announcement with another `number` than the last is sent at once.

@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include "services/keys/key_files.hpp"
+#include "services/runtime/dds/discovery.hpp"
 
 namespace quoin::runtime {
 
@@ -29,16 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto pause = std::chrono::minutes(1);  // between two lines of one text
 constexpr std::size_t most_texts = 30;           // in that time; strangers choose their names
 constexpr std::size_t most_names = 1000;
-constexpr std::size_t longest_name = 80;
 constexpr const char* command_log = "quoin";
-
-/// What a stranger calls itself, fit for a log.
-std::string printable(std::string text) {
-  text.resize(std::min(text.size(), longest_name));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~' || c == '\''; }, '?');
-  return text;
-}
 
 std::string text_of(const rtps::GuidPrefix_t& prefix) {
   std::ostringstream text;

@@ -73,7 +73,7 @@ bool deliver(Output& output, msg::StageTrace& trace, bool lossless, DataThread& 
 namespace {
 
 // Ten seconds of a fast odometry, while nothing comes that asks for them.
-constexpr std::size_t most_kept = 2048;
+constexpr std::size_t most_partners = 2048;
 
 std::int64_t stamp_of(const Message& message) { return message.header->stamp(); }
 
@@ -86,7 +86,7 @@ void Partners::add(Message message) {
     return;
   }
   messages_.insert(at, std::move(message));
-  if (messages_.size() > most_kept) messages_.pop_front();
+  if (messages_.size() > most_partners) messages_.pop_front();
 }
 
 const Message* Partners::latest() const { return messages_.empty() ? nullptr : &messages_.back(); }

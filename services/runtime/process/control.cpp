@@ -14,7 +14,7 @@ namespace quoin::runtime {
 
 namespace {
 
-constexpr std::size_t most_waiting = 16;
+constexpr std::size_t most_requests = 16;
 constexpr int most_accepted_a_second = 400;  // more than anybody can ask one after the other
 constexpr int most_refusals_a_second = 50;
 constexpr std::size_t longest_text = 4096;  // a path is the longest that a request may carry
@@ -122,7 +122,7 @@ void ControlServer::accept(const Target& target, const msg::ControlRequest& requ
   }
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() < most_waiting) {
+    if (waiting_.size() < most_requests) {
       ++accepted_;
       // Its service may have ended since.
       if (std::ranges::find(targets_, target) != targets_.end()) {
@@ -133,7 +133,7 @@ void ControlServer::accept(const Target& target, const msg::ControlRequest& requ
     }
   }
   refuse(*target, request,
-         "already " + std::to_string(most_waiting) + " requests are waiting; ask again later");
+         "already " + std::to_string(most_requests) + " requests are waiting; ask again later");
 }
 
 void ControlServer::begin_second() {

@@ -8,9 +8,9 @@
 namespace quoin::tests {
 
 TestDeployment::TestDeployment(const std::string& services, const std::string& head,
-                               std::string tool)
+                               std::string tool, const std::string& suffix)
     : tool_(std::move(tool)),
-      head_("version: 1\nnamespace: " + test_namespace() +
+      head_("version: 1\nnamespace: " + test_namespace() + suffix +
             "\ndomain: " + std::to_string(test_domain()) + "\n" + head + "services:\n"),
       file_(write("deployment.yaml", services)),
       deployment_(deploy::load_deployment(file_)) {}

@@ -23,9 +23,9 @@ namespace quoin::tests {
 class TestDeployment {
  public:
   /// `services`: the text behind "services:", two spaces in. `head`: more lines before it. `tool`:
-  /// the program that knows their kinds.
+  /// the program that knows their kinds. `suffix` of the namespace, for several in one test.
   explicit TestDeployment(const std::string& services, const std::string& head = "",
-                          std::string tool = "quoin");
+                          std::string tool = "quoin", const std::string& suffix = "");
 
   /// Another deployment file for the same domain and namespace, in the same folder.
   [[nodiscard]] std::filesystem::path write(const std::string& name,
