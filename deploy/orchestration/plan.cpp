@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "core/parameters/changed_settings.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {

@@ -10,7 +10,6 @@
 #include <spdlog/spdlog.h>
 
 #include "core/parameters/parameter.hpp"
-#include "core/parameters/suggestion.hpp"
 
 namespace quoin::runtime {
 
