@@ -8,7 +8,7 @@
 namespace quoin::sensor_bridge {
 
 /// A piece of an input file for a message: in quotes, shortened, and with '?' for bytes that are
-/// not printable ASCII, for it may be anything and goes to logs and terminals.
+/// not printable ASCII, because its content is unknown and goes to logs and terminals.
 [[nodiscard]] inline std::string excerpt(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string result = "'";

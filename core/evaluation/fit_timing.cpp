@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/evaluation/fit_timing.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 
-#include "core/evaluation/stopwatch.hpp"
 #include "core/sensor/points.hpp"
 #include "core/simulation/random.hpp"
 
@@ -24,6 +26,23 @@ double seconds_per_wall(const std::vector<Points>& walls, const Function& functi
 }
 
 }  // namespace
+
+double seconds_per_call(const std::function<void()>& function, double run_time) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int runs = 5;
+  const auto time = [&function](long calls) {
+    const auto start = Clock::now();
+    for (long i = 0; i < calls; ++i) function();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  long calls = 1;
+  while (time(calls) < run_time) calls *= 2;
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < runs; ++run) {
+    best = std::min(best, time(calls) / static_cast<double>(calls));
+  }
+  return best;
+}
 
 std::vector<Points> timing_walls(std::size_t points) {
   std::vector<Points> walls(points < 10000 ? 16 : 2);

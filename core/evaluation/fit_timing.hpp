@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +12,11 @@
 #include "core/sensor/points.hpp"
 
 namespace quoin {
+
+/// Time [s] that one call takes: the best of several runs of at least `run_time` [s] each, because
+/// other load of the machine only makes a run longer.
+[[nodiscard]] double seconds_per_call(const std::function<void()>& function,
+                                      double run_time = 0.002);
 
 /// Several noisy walls of `points` points each, to be fitted in turn, so that neither branches nor
 /// the number of iterations are those of one wall.

@@ -59,7 +59,7 @@ Scene observe(const World& world, const Pose2& pose, std::size_t rays, std::size
   };
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const std::size_t next = (i + 1) % scene.walls.size();
-    // Between walls that meet in sight there is no other ray; a spacing of 1.5 steps tells.
+    // Between walls that meet in sight there is no other ray; a spacing of 1.5 steps decides.
     const double gap =
         normalized_angle(scene.walls[next].bearings.front() - scene.walls[i].bearings.back());
     if (next == i || !(std::abs(gap) < 1.5 * step)) continue;

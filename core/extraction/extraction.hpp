@@ -30,8 +30,8 @@ class Extraction {
   Extraction(Segmenter segmenter, Fitter fitter, CornerFinder finder)
       : segmenter_(std::move(segmenter)), fitter_(std::move(fitter)), finder_(std::move(finder)) {}
 
-  /// The segmenter may be given another sensor model than the fitter: the real noise says where a
-  /// wall ends, whatever the covariances are to be computed from.
+  /// The segmenter may have another sensor model than the fitter: the real noise decides where a
+  /// wall ends, independent of the noise that the covariances are computed from.
   void run(const ScanView& scan, const SensorModel& segmentation, const SensorModel& fitting);
 
   // What the last scan gave; valid until the next.

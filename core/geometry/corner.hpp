@@ -36,7 +36,7 @@ struct CornerEstimate {
 [[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                                       const LineEstimate& second);
 
-/// The same for who already has the unit normals of the lines.
+/// The same with the unit normals of the lines, where they are known already.
 [[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                                       const Eigen::Vector2d& first_normal,
                                                       const LineEstimate& second,

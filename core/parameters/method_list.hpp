@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "core/parameters/parameter.hpp"
-#include "core/parameters/suggestion.hpp"
 
 namespace quoin {
 
-/// What a user can know of a method without running it.
+/// Description of a method, for users.
 struct MethodInfo {
   std::string name;
   std::string description;
@@ -28,7 +27,8 @@ struct MethodInfo {
 /// and a constructor from it; one that keeps something from message to message has `state`, too.
 /// Adding one is one more name in the list.
 ///
-/// `descriptions` uses the headers only, so that who just describes methods links none of them.
+/// `descriptions` uses the headers only, so that a program that only describes methods links none
+/// of them.
 template <class... Methods>
 struct MethodList {
   [[nodiscard]] static std::vector<MethodInfo> descriptions() {

@@ -6,13 +6,33 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <system_error>
-
-#include "core/parameters/suggestion.hpp"
+#include <utility>
 
 namespace quoin {
 namespace {
+
+/// Damerau-Levenshtein distance in its optimal string alignment form: insertions, deletions,
+/// replacements and swaps of neighbours cost 1 each.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replacement = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({replacement, last[j] + 1, current[j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        current[j] = std::min(current[j], before_last[j - 2] + 1);
+      }
+    }
+    std::swap(before_last, last);
+    std::swap(last, current);
+  }
+  return last[b.size()];
+}
 
 constexpr double radians_per_degree = 3.14159265358979323846 / 180.0;
 
@@ -51,7 +71,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// What from_chars is to read: it knows no leading plus.
+/// What from_chars reads: without a leading plus.
 std::string_view without_plus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;
@@ -94,7 +114,62 @@ void check_limits(const ParameterInfo& info, double value, std::string_view text
   fail(info, std::string(text) + " is outside " + minimum + ".." + maximum + unit);
 }
 
+std::string setting_or_default(const ParameterInfo& info, const ParameterSettings& settings) {
+  for (const ParameterSetting& setting : settings) {
+    if (setting.name == info.name) return setting.text;
+  }
+  return info.default_value;
+}
+
+bool same_value(const ParameterInfo& info, const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  try {
+    if (info.type == ParameterType::real) {
+      const double first = detail::parse_real(info, a);
+      const double second = detail::parse_real(info, b);
+      // One number in two units differs by rounding.
+      return std::abs(first - second) <= 1e-12 * std::max(std::abs(first), std::abs(second));
+    }
+    if (info.type == ParameterType::integer) {
+      return detail::parse_integer(info, a) == detail::parse_integer(info, b);
+    }
+  } catch (const ParameterError&) {
+    return false;  // a default may lie where no setting can
+  }
+  return false;
+}
+
 }  // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string nearest;
+  std::size_t nearest_distance = 0;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    // One slip per three letters: more is another word.
+    const std::size_t allowed =
+        std::max<std::size_t>(1, std::max(name.size(), candidate.size()) / 3);
+    const bool shares_a_letter = distance < std::max(name.size(), candidate.size());
+    if (distance <= allowed && shares_a_letter &&
+        (nearest.empty() || distance < nearest_distance)) {
+      nearest = candidate;
+      nearest_distance = distance;
+    }
+  }
+  return nearest;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
+  if (candidates.empty()) return "";
+  std::string text = "; known are ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0) text += ", ";
+    text += candidates[i];
+  }
+  return text;
+}
 
 namespace detail {
 
@@ -202,6 +277,18 @@ void check_required(const std::vector<ParameterInfo>& infos, const ParameterSett
       throw ParameterError(info.name, "is missing: " + info.description);
     }
   }
+}
+
+ParameterSettings changed_settings(const std::vector<ParameterInfo>& infos,
+                                   const ParameterSettings& from, const ParameterSettings& to) {
+  ParameterSettings changed;
+  for (const ParameterInfo& info : infos) {
+    const std::string text = setting_or_default(info, to);
+    if (!same_value(info, setting_or_default(info, from), text)) {
+      changed.push_back({info.name, text});
+    }
+  }
+  return changed;
 }
 
 }  // namespace quoin

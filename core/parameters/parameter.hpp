@@ -16,6 +16,15 @@
 
 namespace quoin {
 
+/// The candidate nearest to `name` by edit distance (a swap of neighbours counts once), or "" when
+/// none is near enough to be what was meant.
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?" when some candidate is near, else "; known are a, b, c".
+[[nodiscard]] std::string suggestion(std::string_view name,
+                                     const std::vector<std::string>& candidates);
+
 /// A parameter as the user wrote it: the text of the value, with or without a unit.
 struct ParameterSetting {
   std::string name;
@@ -27,7 +36,7 @@ using ParameterSettings = std::vector<ParameterSetting>;
 
 enum class ParameterType { boolean, integer, real, choice, text };
 
-/// Everything a user must know of a parameter. Made from the one description beside the struct
+/// Description of a parameter, for users. Made from the one description beside the struct
 /// that holds the value (see `field`), never written by hand.
 struct ParameterInfo {
   std::string name;
@@ -229,5 +238,11 @@ template <class P>
       P::fields());
   return settings;
 }
+
+/// The settings of `to` whose value differs from that in `from`, compared in SI units; what is not
+/// set has its default.
+[[nodiscard]] ParameterSettings changed_settings(const std::vector<ParameterInfo>& infos,
+                                                 const ParameterSettings& from,
+                                                 const ParameterSettings& to);
 
 }  // namespace quoin

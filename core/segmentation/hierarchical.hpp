@@ -15,7 +15,7 @@ namespace quoin {
 /// surface breaks between points farther apart than `cluster_distance`. Second, it breaks where the
 /// derivative of one of two functions of the bearing has a local peak above its mean and one
 /// standard deviation over the cluster. What is then elongated enough by its principal axes is a
-/// line; adjacent lines are joined by the shared merging, which asks for the tolerance of all
+/// line; adjacent lines are joined by the shared merging, which compares with the tolerance of all
 /// points instead of the paper's equal directions.
 ///
 /// The two functions are a reconstruction, because the equations are missing from the text at hand:

@@ -23,7 +23,7 @@ class HoughVotes {
 
   static constexpr std::size_t most_offsets = 2048;
 
-  /// Forgets all votes and lets these points vote.
+  /// Clears all votes and adds those of these points.
   void start(const PointsView& points, const Segment& cluster);
 
   struct Peak {
@@ -34,10 +34,10 @@ class HoughVotes {
   /// The cell with most votes.
   [[nodiscard]] Peak peak() const;
 
-  /// The cell shall not be the peak again.
+  /// Excludes the cell from the peaks.
   void discard(std::size_t cell);
 
-  /// Takes the votes of these points back, each at most once.
+  /// Subtracts the votes of these points, each at most once.
   void take_back(const PointsView& points, const Segment& run);
 
  private:

@@ -7,7 +7,7 @@
 namespace quoin {
 namespace {
 
-// A line through fewer points says more about their noise than about the next one: what two points
+// A line through fewer points fits their noise rather than predicts the next one: what two points
 // predict has more than twice a point's deviation, what five predict about once.
 constexpr std::size_t fewest_to_predict = 5;
 

@@ -30,7 +30,7 @@ Match match_of(const PointsView& points, const Piece& first, const Piece& second
                const Tolerance& tolerance) {
   Match match;
   if (!second.joined || !first.line || !second.line) return match;
-  // The outer end of the shorter piece tells cheaply: it is far from the other wall at a corner.
+  // A cheap test first: at a corner the outer end of the shorter piece is far from the other wall.
   const bool first_is_longer = first.segment.size() >= second.segment.size();
   const NormalLine& longer = first_is_longer ? *first.line : *second.line;
   const std::size_t outer = first_is_longer ? second.segment.end - 1 : first.segment.begin;

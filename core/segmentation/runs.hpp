@@ -68,8 +68,8 @@ inline constexpr std::size_t largest_gap_in_run = 2;
 [[nodiscard]] Segment straight_run(const PointsView& points, const PrefixMoments& moments,
                                    const Segment& piece, const Tolerance& tolerance);
 
-/// Takes pieces apart that methods which look at neighbours only believe to be one line, such as an
-/// arc or walls at a blunt corner. Keeps its memory.
+/// Splits pieces that are not straight although methods which compare neighbours only take them for
+/// one line, such as an arc or walls at a blunt corner. Keeps its memory.
 class StraightRuns {
  public:
   /// The straight run of a piece, that of what is before it, and so on: ascending, of at least 3
@@ -83,7 +83,7 @@ class StraightRuns {
     Segment segment;
     bool straight = false;
   };
-  std::vector<Candidate> stack_;  // still to be judged, the leftmost on top
+  std::vector<Candidate> stack_;  // still to be examined, the leftmost on top
   std::vector<Segment> runs_;
 };
 

@@ -84,7 +84,7 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
                                                                                           : squared;
 }
 
-/// Appends to `segments` the pieces that are lines somebody can use:
+/// Appends to `segments` the pieces that are usable lines:
 /// - of `min_points` points and `min_length`; half of that beside a joined piece that is long
 ///   enough, because small pieces with nothing beside them are mostly of clutter,
 /// - longer than the band of their tolerance is wide: noise makes short ones out of nothing,

@@ -19,7 +19,7 @@ class SegmentBuilder {
  public:
   explicit SegmentBuilder(const SegmentationParameters& parameters);
 
-  /// Finds the clusters of a new scan and forgets the pieces of the last.
+  /// Finds the clusters of a new scan and clears the pieces of the last.
   void start(const PointsView& points, const SensorModel& sensor);
 
   /// Runs of points without a break of the surface, ascending; together they are all points.

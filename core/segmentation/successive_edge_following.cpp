@@ -25,7 +25,8 @@ void add(const PointsView& points, std::size_t i, double sign, Moments& sums) {
   sums.yy += sign * sine * sine;
 }
 
-/// Whether the range of point `i` is off what the line A x + B y = 1 through `count` ranges says.
+/// Whether the range of point `i` is off the prediction of the line A x + B y = 1 through `count`
+/// ranges.
 bool is_edge(const PointsView& points, std::size_t i, const Eigen::Vector2d& q, std::size_t count,
              const Tolerance& tolerance) {
   const double inverse = q.x() * points.cosine[i] + q.y() * points.sine[i];

@@ -12,16 +12,17 @@
 namespace quoin {
 
 /// Successive edge following: looks at ranges alone, in the order of the scan; a new segment starts
-/// where the range differs too much from what the ranges before it say. The original compares with
-/// the range before, which takes an inclined wall apart when the threshold is tight and misses
+/// where the range differs too much from what the ranges before it predict. The original compares
+/// with the range before, which takes an inclined wall apart when the threshold is tight and misses
 /// corners when it is not. Here the last `slope_points` ranges of the segment predict the next:
 /// 1 / range = A cos + B sin of the bearing, exact on a straight wall however inclined. Ranges do
-/// not tell a bow from a wall, so that what is not straight is taken apart.
+/// not distinguish a bow from a wall, so that what is not straight is split.
 class SuccessiveEdgeFollowing {
  public:
   static constexpr const char* name = "successive_edge_following";
   static constexpr const char* description =
-      "successive edge following: starts a segment where the range leaves what those before say";
+      "successive edge following: starts a segment where the range leaves what those before "
+      "predict";
   static constexpr const char* source = "Siadat et al. 1997";
   static constexpr const char* choose =
       "At up to 20 mm when false segments are worse than a few times the time of iepf: it finds as "

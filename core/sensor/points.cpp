@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sensor/points.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <type_traits>
@@ -139,6 +140,13 @@ void CoarsePoints::assign(const PointsView& points) {
   y.resize(points.size());
   round_to_single(points.range.data(), points.x.data(), points.y.data(), points.size(),
                   range.data(), x.data(), y.data());
+}
+
+void convert_ordered(std::span<const float> bearings, std::span<const float> ranges,
+                     Points& points) {
+  const std::size_t count = std::min(bearings.size(), ranges.size());
+  points.resize(count);
+  compute_cartesian(bearings.first(count), ranges.first(count), 0, points);
 }
 
 }  // namespace quoin

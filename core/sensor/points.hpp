@@ -18,7 +18,7 @@ struct SensorModel {
 };
 
 /// Points of a scan in polar and Cartesian form, structure of arrays, all of the same length. A
-/// view: the arrays belong to somebody else.
+/// view: it does not own the arrays.
 struct PointsView {
   std::span<const double> range;          ///< [m] > 0, finite
   std::span<const double> bearing;        ///< [rad] counter-clockwise from x
@@ -56,7 +56,7 @@ struct Points {
   operator PointsView() const { return view(); }  // NOLINT(google-explicit-constructor)
 };
 
-/// Points of a scan in single precision, which is micrometres: enough to tell where a surface ends
+/// Points of a scan in single precision, which is micrometres: enough to see where a surface ends
 /// or a chord is left, in half the time. Lines are fitted in double precision. Keeps its memory.
 struct CoarsePoints {
   std::vector<float> range, x, y;  ///< [m]
@@ -78,5 +78,10 @@ void compute_cartesian(Points& points);
 /// the same length, and the points have room for them.
 void compute_cartesian(std::span<const float> bearings, std::span<const float> ranges,
                        std::size_t at, Points& points);
+
+/// Points that are already valid, ordered and rotated (by `convert`, before they were sent), with
+/// sine, cosine and Cartesian coordinates computed.
+void convert_ordered(std::span<const float> bearings, std::span<const float> ranges,
+                     Points& points);
 
 }  // namespace quoin

@@ -14,7 +14,8 @@ namespace quoin {
 namespace {
 
 /// As bit patterns. Compared as integers, positive numbers keep their order, and NaN and infinity
-/// are beyond all limits. This file is compiled with -ffinite-math-only, which knows no NaN.
+/// are beyond all limits. This file is compiled with -ffinite-math-only, which assumes that there
+/// is no NaN.
 struct Limits {
   std::int32_t range_min, range_max, bearing_max;
 };
@@ -227,13 +228,6 @@ std::size_t convert(const ScanView& scan, Points& points) {
   compute_cartesian(start.bearings, start.ranges, 0, points);
   compute_cartesian(rest.bearings, rest.ranges, before_seam, points);
   return order.count;
-}
-
-void convert_ordered(std::span<const float> bearings, std::span<const float> ranges,
-                     Points& points) {
-  const std::size_t count = std::min(bearings.size(), ranges.size());
-  points.resize(count);
-  compute_cartesian(bearings.first(count), ranges.first(count), 0, points);
 }
 
 }  // namespace quoin

@@ -11,8 +11,8 @@
 namespace quoin {
 
 /// One revolution or sweep in the order of acquisition, either direction of rotation, starting
-/// anywhere; a view on somebody else's arrays. Invalid ranges are NaN, infinite, zero, negative or
-/// outside the limits.
+/// anywhere; a view that does not own the arrays. Invalid ranges are NaN, infinite, zero, negative
+/// or outside the limits.
 struct ScanView {
   std::span<const float> bearings;  ///< [rad] counter-clockwise from x, any multiple of 2 pi
   std::span<const float> ranges;    ///< [m]
@@ -27,10 +27,5 @@ struct ScanView {
 ///
 /// When bearings and ranges differ in length, the points that have both are used.
 std::size_t convert(const ScanView& scan, Points& points);
-
-/// Points that are already valid, ordered and rotated (as `convert` made them on the other side of
-/// a wire), with sine, cosine and Cartesian coordinates computed.
-void convert_ordered(std::span<const float> bearings, std::span<const float> ranges,
-                     Points& points);
 
 }  // namespace quoin

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,5 +55,11 @@ struct World {
 /// `cwlf_environment_a` and `cwlf_environment_b` the sizes, segment and corner counts of the CWLF
 /// paper's section V.
 [[nodiscard]] std::optional<World> built_in_world(std::string_view name);
+
+/// Rooms of 4 to 9 m with what a robot meets in them: cabinets and sofas along the walls, turned
+/// tables and crates, table legs, bins, people's legs and heaps of small things, all placed at
+/// random around a sensor that has at least half a metre of free space. Same seed, same rooms, and
+/// the first ones do not depend on `count`.
+[[nodiscard]] std::vector<World> cluttered_rooms(std::size_t count, std::uint64_t seed);
 
 }  // namespace quoin

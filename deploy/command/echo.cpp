@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
 #include "deploy/orchestration/signals.hpp"

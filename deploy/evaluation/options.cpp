@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/fitting/fitters.hpp"
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"

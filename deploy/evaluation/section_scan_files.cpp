@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/corners/corner_finders.hpp"
+#include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/scan_statistics.hpp"
-#include "core/evaluation/stopwatch.hpp"
 #include "deploy/evaluation/drawing/drawing.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/pictures.hpp"

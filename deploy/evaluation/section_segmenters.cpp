@@ -7,11 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/segmentation_quality.hpp"
-#include "core/evaluation/stopwatch.hpp"
 #include "core/extraction/extraction.hpp"
 #include "core/geometry/angle.hpp"
-#include "core/simulation/cluttered_room.hpp"
+#include "core/simulation/world.hpp"
 #include "deploy/evaluation/figures.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/observation/table.hpp"

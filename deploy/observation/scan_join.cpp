@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/topics/header.hpp"

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin::deploy {
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/parameters/changed_settings.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {

@@ -20,7 +20,7 @@ constexpr std::string_view blank = " \t";
 // logger_timestamp.
 constexpr std::size_t poses_and_stamps = 9;
 
-/// Words of one line, with their places for messages.
+/// Words of one line, with their positions for messages.
 class Words {
  public:
   Words(const LineReader& lines, std::string_view line) : lines_(lines), line_(line) {}

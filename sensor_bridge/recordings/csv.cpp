@@ -18,7 +18,7 @@ namespace {
 // degrees by mistake.
 constexpr double max_bearing = 4.0 * std::numbers::pi;  // [rad]
 
-/// Part of a line with its place in it.
+/// Part of a line with its position in it.
 struct Column {
   std::string_view text;
   std::size_t offset = 0;

@@ -36,7 +36,7 @@ struct EnumNames<sensor_bridge::ScanFormat> {
 
 namespace quoin::sensor_bridge {
 
-/// What the publisher of recorded scans can be told. Limits and field of view default to the SICK
+/// Parameters of the publisher of recorded scans. Limits and field of view default to the SICK
 /// LMS that most CARMEN logs were taken with: 180 degrees, readings of 80 m and more mean "no
 /// return".
 struct ReplayParameters {

@@ -17,7 +17,7 @@ namespace quoin::sensor_bridge {
 /// names. Throws ScanFileError when there is none.
 [[nodiscard]] std::vector<std::filesystem::path> list_scan_files(const std::filesystem::path& path);
 
-/// How the file is written, by the end of its name. Throws ScanFileError when that does not tell.
+/// How the file is written, by the end of its name. Throws ScanFileError when that is unknown.
 [[nodiscard]] ScanFormat format_of(const std::filesystem::path& file);
 
 /// The scans of a file, or of all files in a folder, one after the other.

@@ -21,8 +21,8 @@ class Playback {
   Playback(double speed, double rate);
 
   /// When the next scan, `scan`, is due: a time [s] on the caller's clock, which shows `now`. The
-  /// first is due at once. Times add up without drift; who was held up for more than a period goes
-  /// on from `now` and sends no burst.
+  /// first is due at once. Times add up without drift; a player that is late by more than a
+  /// period continues from `now` and sends no burst.
   [[nodiscard]] double due(const RecordedScan& scan, double now);
 
   /// Scans whose stamp could not be used although there is one.

@@ -15,7 +15,7 @@ namespace quoin::sensor_bridge {
 ///
 /// A scan is stamped with the wall clock at its publication, as if acquired then: recorded stamps
 /// have no known epoch, and ages and latencies downstream must make sense. Duration is 0 and time
-/// offsets are empty, for the files do not tell them.
+/// offsets are empty, for the files do not contain them.
 [[nodiscard]] std::function<void(runtime::Source&)> open_replay(
     const ServiceConfig& config, const std::filesystem::path& base_directory);
 

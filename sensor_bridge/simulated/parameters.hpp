@@ -7,10 +7,11 @@
 #include <tuple>
 
 #include "core/parameters/parameter.hpp"
+#include "core/simulation/scanner.hpp"
 
 namespace quoin::sensor_bridge {
 
-/// What the simulated sensor publisher can be told. The defaults are an RPLIDAR S1 at 10 Hz: 9200
+/// Parameters of the simulated sensor. The defaults are an RPLIDAR S1 at 10 Hz: 9200
 /// samples a second, range noise of 1 cm, bearings in steps of 0.391 deg.
 struct SimulatedParameters {
   std::string environment = "domestic_room";
@@ -58,5 +59,8 @@ struct SimulatedParameters {
         field(&P::frame, "frame", "frame of the sensor (REP-105)")};
   }
 };
+
+/// The scanner that `parameters` describe. Throws ParameterError when they contradict each other.
+[[nodiscard]] ScannerSettings scanner_settings(const SimulatedParameters& parameters);
 
 }  // namespace quoin::sensor_bridge

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 
 namespace quoin::sensor_bridge {
@@ -20,15 +21,26 @@ class RevolutionTimer {
   };
 
   /// `rate` in Hz, positive.
-  RevolutionTimer(TimePoint start, double rate);
+  RevolutionTimer(TimePoint start, double rate) : start_(start), period_(1.0 / rate) {}
 
   /// The revolution after the last one given, unless it ended more than a period before `now`: then
-  /// the one that is under way, so that a sensor that was held up goes on in time and sends no
-  /// burst.
-  [[nodiscard]] Revolution next(TimePoint now);
+  /// the current one, so that a sensor that was late continues in time and sends no burst.
+  [[nodiscard]] Revolution next(TimePoint now) {
+    if (now > boundary(index_ + 2)) {
+      index_ = static_cast<std::int64_t>(std::floor(Seconds(now - start_).count() / period_));
+    }
+    const Revolution revolution{boundary(index_), boundary(index_ + 1)};
+    ++index_;
+    return revolution;
+  }
 
  private:
-  [[nodiscard]] TimePoint boundary(std::int64_t index) const;
+  using Seconds = std::chrono::duration<double>;
+
+  [[nodiscard]] TimePoint boundary(std::int64_t index) const {
+    return start_ +
+           std::chrono::round<TimePoint::duration>(Seconds(static_cast<double>(index) * period_));
+  }
 
   TimePoint start_;
   double period_;  // [s]

@@ -8,7 +8,6 @@
 #include "sensor_bridge/scan_declaration.hpp"
 #include "sensor_bridge/simulated/parameters.hpp"
 #include "sensor_bridge/simulated/revolution_timer.hpp"
-#include "sensor_bridge/simulated/scanner_settings.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
 #include "services/runtime/node/clock.hpp"
 

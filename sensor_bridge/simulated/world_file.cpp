@@ -13,7 +13,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uintmax_t max_file_size = 16U << 20U;  // [byte]
 
-/// Builds a World from nodes; every complaint carries the node's place.
+/// Builds a World from nodes; every error has the node's position.
 class WorldParser {
  public:
   explicit WorldParser(std::string file) : file_(std::move(file)) {}
@@ -54,7 +54,7 @@ class WorldParser {
   }
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
-    // An empty document has no place of its own: its marks are -1.
+    // An empty document has no position of its own: its marks are -1.
     throw WorldError(file_ + ":" + std::to_string(std::max(mark.line, 0) + 1) + ":" +
                      std::to_string(std::max(mark.column, 0) + 1) + ": " + what);
   }

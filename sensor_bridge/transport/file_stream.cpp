@@ -29,7 +29,7 @@ bool wait_for(int descriptor, short event, Deadline deadline) {
     const int ready = ::ppoll(&waited, 1, &time, nullptr);
     if (ready > 0) return true;
     if (ready == 0) return false;
-    if (errno != EINTR) return true;  // the operation itself will tell
+    if (errno != EINTR) return true;  // the operation itself will fail
   }
 }
 

@@ -16,7 +16,8 @@ struct PortHolder {
   friend bool operator==(const PortHolder&, const PortHolder&) = default;
 };
 
-/// Who has the file open, as far as this user may see. `root` is where the system is looked at.
+/// The processes that have the file open, as far as this user may see. `root` is the root of the
+/// file system.
 [[nodiscard]] std::vector<PortHolder> holders_of(const std::filesystem::path& port,
                                                  const std::filesystem::path& root = "/");
 

@@ -10,7 +10,7 @@
 
 namespace quoin::sensor_bridge {
 
-/// Who made an adapter, and which one it is.
+/// Manufacturer and model of an adapter.
 struct UsbIdentity {
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;

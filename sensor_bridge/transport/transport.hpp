@@ -16,7 +16,7 @@ namespace quoin::sensor_bridge {
 using Deadline = std::chrono::steady_clock::time_point;
 
 /// A stream of bytes to and from a device. Its functions throw TransportError when the stream is at
-/// its end, which is never otherwise told apart from silence. One thread at a time.
+/// its end, which cannot be distinguished from silence otherwise. One thread at a time.
 class Transport {
  public:
   Transport() = default;
@@ -34,7 +34,7 @@ class Transport {
   /// Throws away what has arrived.
   virtual void discard_input() = 0;
 
-  /// Sets the line by which devices without a speed command are told to hold their motor: clear to
+  /// Sets the line by which devices without a speed command stop their motor: clear to
   /// let it run. Of no effect where there is no such line.
   virtual void hold_motor(bool /*hold*/) {}
 };

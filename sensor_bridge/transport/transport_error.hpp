@@ -17,7 +17,7 @@ class TransportError : public std::runtime_error {
     not_a_serial_port,  ///< another kind of file
     unsupported_baud_rate,
     unknown_host,  ///< the name has no address
-    refused,       ///< nobody listens there
+    refused,       ///< nothing listens there
     unreachable,   ///< no way to the host
     timed_out,     ///< no answer to the connection, or bytes that cannot be handed over
     closed,        ///< unplugged, or closed by the other end
@@ -38,7 +38,8 @@ class TransportError : public std::runtime_error {
 /// What the user can do; empty when there is nothing to advise.
 [[nodiscard]] std::string way_out(TransportError::Kind kind);
 
-/// What an operation on `endpoint` ended with; `error` is the value of errno, whose text is told.
+/// What an operation on `endpoint` ended with; `error` is the value of errno, whose text is in the
+/// message.
 [[nodiscard]] TransportError system_error(const std::string& endpoint, const std::string& operation,
                                           int error);
 

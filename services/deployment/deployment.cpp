@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/topics/topic_types.hpp"
 
 namespace quoin {

@@ -5,7 +5,7 @@
 #include <arpa/inet.h>
 #include <charconv>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/parameter_entries.hpp"
 
 namespace quoin {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <optional>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/network_entries.hpp"
 #include "services/deployment/problems.hpp"

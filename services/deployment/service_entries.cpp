@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/parameter_entries.hpp"
 #include "services/topics/topic_types.hpp"
 

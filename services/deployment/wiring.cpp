@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/graph.hpp"
 
 namespace quoin {

@@ -8,7 +8,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin {
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/segmentation/segmenters.hpp"
+#include "core/sensor/scan.hpp"
 #include "services/runtime/process/run_node.hpp"
 #include "services/segmentation/kind.hpp"
 #include "services/topics/segments.hpp"
@@ -22,7 +23,7 @@ runtime::Handler<msg::Scan, msg::Segments> make(const std::string& method,
   auto work = std::make_shared<Workspace>();
   work->segment = Segmenters::make<Segmenter>(method, parameters);
   return [work](const msg::Scan& scan, msg::Segments& out) -> std::size_t {
-    convert(topics::scan_view(scan), work->points);
+    convert({scan.bearings(), scan.ranges(), scan.range_min(), scan.range_max()}, work->points);
     work->segment(work->points, topics::sensor_model(scan.sensor_model()), work->segments);
     topics::fill_segments(scan, work->points, work->segments, out);
     return work->segments.empty() ? 1 : 0;  // a scan without any line is counted

@@ -16,10 +16,6 @@ msg::SensorModel sensor_model_message(const SensorModel& model) {
   return message;
 }
 
-ScanView scan_view(const msg::Scan& scan) {
-  return {scan.bearings(), scan.ranges(), scan.range_min(), scan.range_max()};
-}
-
 void fill_segments(const msg::Scan& scan, const Points& points,
                    const std::vector<Segment>& segments, msg::Segments& out) {
   out.sensor_model(scan.sensor_model());

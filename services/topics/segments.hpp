@@ -8,21 +8,17 @@
 
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/points.hpp"
-#include "core/sensor/scan.hpp"
 
 namespace quoin::topics {
 
 [[nodiscard]] SensorModel sensor_model(const msg::SensorModel& message);
 [[nodiscard]] msg::SensorModel sensor_model_message(const SensorModel& model);
 
-/// A view on the message's arrays.
-[[nodiscard]] ScanView scan_view(const msg::Scan& scan);
-
 /// Everything but the header.
 void fill_segments(const msg::Scan& scan, const Points& points,
                    const std::vector<Segment>& segments, msg::Segments& out);
 
-/// True when every range of the message lies inside its points; a stranger may have sent it.
+/// True when every range of the message lies inside its points; any program may have sent it.
 [[nodiscard]] bool valid(const msg::Segments& message);
 
 }  // namespace quoin::topics

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/scene.hpp"
-#include "core/evaluation/stopwatch.hpp"
 #include "core/fitting/arras_siegwart.hpp"
 #include "core/fitting/cwlf.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/evaluation/stopwatch.hpp"
+#include "core/evaluation/fit_timing.hpp"
 #include "core/fitting/least_squares.hpp"
 #include "core/fitting/pca.hpp"
 #include "core/geometry/angle.hpp"

@@ -15,7 +15,7 @@ namespace {
 /// S1; A series and old adapters; C1; S2 and S3.
 constexpr unsigned usual_baud_rates[] = {256000, 115200, 460800, 1000000};
 
-/// How much a finding tells of what is at the other end.
+/// How much a finding says about the other end.
 int weight(Finding finding) {
   switch (finding) {
     case Finding::unsupported_baud_rate:

@@ -20,12 +20,12 @@ using Opener = std::function<std::unique_ptr<Transport>(unsigned baud_rate)>;
 
 [[nodiscard]] Opener opener_of(const DriverSettings& settings);
 
-/// A device that has said who it is, does nothing, and whose motor is stopped at the end.
+/// A device that has been identified and is idle; its motor is stopped at the end.
 struct Connection {
   MotorGuard guard;
   unsigned baud_rate = 0;  ///< of a serial port
   DeviceInfo info;
-  bool was_sending = false;  ///< it had not been told to stop
+  bool was_sending = false;  ///< it was measuring when it was found
 };
 
 /// What to try at this endpoint, the likeliest first: `first` if it is not 0, then the usual ones.

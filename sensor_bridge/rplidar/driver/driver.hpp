@@ -15,7 +15,7 @@ namespace quoin::sensor_bridge::rplidar {
 /// Runs one device: finds it, makes it measure, and whatever happens to it brings it back.
 class Driver {
  public:
-  /// `open` is for tests; without it the settings tell the way. The listener must outlive it.
+  /// `open` is for tests; without it the settings decide. The listener must outlive it.
   Driver(DriverSettings settings, DriverListener& listener, Opener open = {});
 
   /// Returns when interrupted. The motor is stopped by whatever way it ends. Throws SettingsError

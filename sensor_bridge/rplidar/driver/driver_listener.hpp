@@ -40,7 +40,7 @@ struct DriverCounts {
   }
 };
 
-/// Is told by a driver what happens, by the thread that runs it. What it throws ends the run, with
+/// Receives the events of a driver, in the thread that runs it. What it throws ends the run, with
 /// the motor stopped.
 class DriverListener {
  public:
@@ -52,7 +52,7 @@ class DriverListener {
   /// Valid during the call only. `mode` is what the device sends in, and may be another than that
   /// of the plan.
   virtual void revolution(const Revolution& revolution, const ScanMode& mode) = 0;
-  /// One that lasts is told once until there are measurements again.
+  /// One that lasts is reported once until there are measurements again.
   virtual void problem(const Diagnosis& diagnosis) = 0;
 };
 

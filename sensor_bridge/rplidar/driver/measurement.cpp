@@ -33,7 +33,7 @@ class Recorder final : public DriverListener {
 
   void problem(const Diagnosis& diagnosis) override { result_.problems.push_back(diagnosis); }
 
-  /// Adds it unless it is what was told last.
+  /// Adds it unless it is what was reported last.
   void end(const Diagnosis& diagnosis) {
     if (result_.problems.empty() || result_.problems.back().finding != diagnosis.finding) {
       result_.problems.push_back(diagnosis);

@@ -12,12 +12,12 @@ namespace quoin::sensor_bridge::rplidar {
 
 struct ProbeReport {
   Diagnosis diagnosis;
-  std::optional<DeviceFacts> facts;  ///< when a device said who it is and what it can do
+  std::optional<DeviceFacts> facts;  ///< when a device has identified itself
   bool was_sending = false;          ///< it was found in the middle of a scan
 };
 
-/// Finds out who is at the endpoint, at whatever baud rate, without a measurement. The device is
-/// idle afterwards, also one that was found scanning. Throws nothing but Stopped.
+/// Identifies the device at the endpoint, at whatever baud rate, without a measurement. The device
+/// is idle afterwards, also one that was found scanning. Throws nothing but Stopped.
 [[nodiscard]] ProbeReport probe(const DriverSettings& settings, const Interruption& interruption,
                                 Opener open = {});
 

@@ -9,8 +9,8 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// Ends whatever the device does and lets its motor idle: tells it so until it is quiet, a few
-/// times at most. Takes less than 0.4 s, and fails without a word where nobody can be told any
+/// Ends whatever the device does and lets its motor idle: sends the request until it is quiet, a
+/// few times at most. Takes less than 0.4 s, and fails without a word where nobody can be told any
 /// more.
 void stop_motor(Transport& transport) noexcept;
 
@@ -24,7 +24,7 @@ class MotorGuard {
     if (transport_ && armed_) stop_motor(*transport_);
   }
 
-  /// Whether there is somebody at the other end.
+  /// Whether there is a device at the other end.
   void arm(bool armed) { armed_ = armed; }
   [[nodiscard]] Transport& transport() const { return *transport_; }
 

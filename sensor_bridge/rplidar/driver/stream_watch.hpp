@@ -12,7 +12,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// Tells when a stream of measurements is not worth to be read on.
+/// Detects when a stream of measurements is not worth reading on.
 class StreamWatch {
  public:
   StreamWatch(const TimeOuts& time_outs, TimePoint start);
@@ -43,12 +43,12 @@ class StreamWatch {
   std::optional<TimePoint> last_revolution_;
 };
 
-/// Tells when the motor does not turn as fast as it was told to.
+/// Detects when the motor does not turn at the speed that was set.
 class RotationWatch {
  public:
   static constexpr double tolerance = 0.1;
 
-  /// `speed` [rev/min]; nothing is told of a motor whose speed was not set.
+  /// `speed` [rev/min]; nothing is reported of a motor whose speed was not set.
   RotationWatch(std::optional<std::uint16_t> speed, TimePoint spun_up)
       : speed_(speed.value_or(0)), spun_up_(spun_up) {}
 

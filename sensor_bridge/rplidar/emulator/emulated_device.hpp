@@ -46,7 +46,7 @@ struct DeviceCounts {
 class EmulatedDevice {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
-  /// Told of each thing that happens, with its time.
+  /// Called for each event, with its time.
   using Report = std::function<void(TimePoint, const std::string&)>;
 
   /// Plugged in and ready at `now`. Throws std::invalid_argument for settings that cannot be.

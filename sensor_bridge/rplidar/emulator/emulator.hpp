@@ -32,7 +32,7 @@ struct EmulatorStatus {
   DeviceCounts counts;
   std::uint64_t sent_bytes = 0;     ///< that the client was given
   std::uint64_t misread_bytes = 0;  ///< in either direction, for the baud rates differ
-  std::uint64_t lost_bytes = 0;     ///< that nobody read, or for which the line was too slow
+  std::uint64_t lost_bytes = 0;     ///< that were not read, or for which the line was too slow
 };
 
 /// On one line.
@@ -41,7 +41,7 @@ struct EmulatorStatus {
 /// An emulated device with its link, in real time. All but `run` may be called by any thread.
 class Emulator {
  public:
-  /// Told of each thing that happens, with the time [s] since the start; must not call the
+  /// Called for each event, with the time [s] since the start; must not call the
   /// emulator.
   using Report = std::function<void(double, const std::string&)>;
 

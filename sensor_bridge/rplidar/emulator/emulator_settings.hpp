@@ -14,7 +14,7 @@ namespace quoin::sensor_bridge::rplidar {
 inline constexpr std::uint16_t slowest_motor = 480;
 inline constexpr std::uint16_t fastest_motor = 900;
 
-/// What an emulated RPLIDAR S1 can be told. The defaults are a new S1 on a serial line.
+/// Settings of an emulated RPLIDAR S1. The defaults are a new S1 on a serial line.
 struct EmulatorSettings {
   /// A built-in world, or the path of a world file. The device stands at the world's first way
   /// point, its front along the heading there.

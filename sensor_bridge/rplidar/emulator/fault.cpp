@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
 
@@ -114,10 +114,10 @@ double parse_value(std::string_view fault, const Description& description,
 
 // Cuts off what follows the first `mark`.
 std::optional<std::string_view> take_after(std::string_view& text, char mark) {
-  const std::size_t place = text.find(mark);
-  if (place == std::string_view::npos) return std::nullopt;
-  const std::string_view after = text.substr(place + 1);
-  text = text.substr(0, place);
+  const std::size_t position = text.find(mark);
+  if (position == std::string_view::npos) return std::nullopt;
+  const std::string_view after = text.substr(position + 1);
+  text = text.substr(0, position);
   return trimmed(after);
 }
 

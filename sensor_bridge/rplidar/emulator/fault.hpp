@@ -20,11 +20,11 @@ enum class FaultKind {
   slow_spin_up,      ///< value: [s] from rest to 10 Hz
   health_error,      ///< protection stop; value: how many resets it takes to end it
   unplug,            ///< without power and connection
-  speed,             ///< value: [Hz] at which the motor turns, whatever it is told
+  speed,             ///< value: [Hz] at which the motor turns, whatever is set
   zero_sample_time,  ///< says that its samples take no time
   wrong_length,      ///< announces answers 3 bytes longer than they are
-  unknown_model,     ///< says that it is of a model that nobody has heard of
-  unknown_format,    ///< says that it sends samples in a format that nobody has heard of
+  unknown_model,     ///< reports an unknown model
+  unknown_format,    ///< reports an unknown sample format
 };
 
 /// A misbehaviour with its time.

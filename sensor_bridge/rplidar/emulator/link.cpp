@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/rplidar/emulator/pseudo_terminal.hpp"
 #include "sensor_bridge/rplidar/emulator/tcp_server.hpp"

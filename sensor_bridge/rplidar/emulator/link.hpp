@@ -21,7 +21,7 @@ namespace quoin::sensor_bridge::rplidar {
 class Link {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
-  /// Told of clients that come and go.
+  /// Called when a client connects or disconnects.
   using Report = std::function<void(const std::string&)>;
 
   Link() = default;

@@ -22,7 +22,7 @@ class Motor {
   [[nodiscard]] double turns(TimePoint time) const;
   [[nodiscard]] double speed(TimePoint time) const;  ///< [rev/s]
   [[nodiscard]] double target() const { return target_; }
-  /// When it has the speed that it was told.
+  /// When it has the speed that was set.
   [[nodiscard]] TimePoint stable_at() const;
 
  private:

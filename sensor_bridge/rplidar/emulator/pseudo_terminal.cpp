@@ -55,7 +55,7 @@ void PseudoTerminal::plug_in() {
   if (!slave) fail(std::string("cannot open ") + name.data());
   make_raw(slave.get());
   slave_path_ = name.data();
-  // A system that does not tell serves its clients all the same.
+  // A system that does not notify serves its clients all the same.
   openings_ = FileDescriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
   if (openings_ && ::inotify_add_watch(openings_.get(), name.data(), IN_OPEN | IN_CLOSE) < 0) {
     openings_.reset();
@@ -90,7 +90,7 @@ void PseudoTerminal::read(std::vector<std::uint8_t>& bytes) {
   const ssize_t size = ::read(master_.get(), piece.data(), piece.size());
   if (size <= 0) return;
   bytes.insert(bytes.end(), piece.begin(), piece.begin() + size);
-  clients_ = std::max(clients_, 1);  // should the system not have told
+  clients_ = std::max(clients_, 1);  // should the system not have notified
 }
 
 // A real port is new to each client. This one is kept open, so that what the last client left has
@@ -100,9 +100,9 @@ void PseudoTerminal::follow_clients() {
   ssize_t size = 0;
   while (openings_ && (size = ::read(openings_.get(), events.data(), events.size())) > 0) {
     inotify_event event;
-    for (std::size_t place = 0; place + sizeof event <= static_cast<std::size_t>(size);
-         place += sizeof event + event.len) {
-      std::memcpy(&event, events.data() + place, sizeof event);
+    for (std::size_t offset = 0; offset + sizeof event <= static_cast<std::size_t>(size);
+         offset += sizeof event + event.len) {
+      std::memcpy(&event, events.data() + offset, sizeof event);
       if ((event.mask & IN_OPEN) != 0 && clients_++ == 0) {
         ::ioctl(slave_.get(), TCFLSH, TCIFLUSH);
         report_("a client opened the port");
@@ -124,7 +124,7 @@ void PseudoTerminal::write(std::span<const std::uint8_t> bytes, TimePoint /*now*
 
 std::optional<unsigned> PseudoTerminal::baud_rate() const {
   termios2 mode{};
-  // The master tells the mode of the slave.
+  // The master has the mode of the slave.
   if (!master_ || ::ioctl(master_.get(), TCGETS2, &mode) != 0) return std::nullopt;
   return mode.c_ospeed;
 }

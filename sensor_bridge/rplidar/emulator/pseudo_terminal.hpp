@@ -9,7 +9,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// A pseudo-terminal in place of a serial port. A client sets baud rate and mode as on a real one.
+/// A pseudo-terminal instead of a serial port. A client sets baud rate and mode as on a real one.
 /// Each time it is plugged in it has another name; the symbolic link stays the same.
 class PseudoTerminal : public Link {
  public:
@@ -36,7 +36,7 @@ class PseudoTerminal : public Link {
   FileDescriptor master_;
   /// Without it the terminal would forget its mode whenever no client is there.
   FileDescriptor slave_;
-  FileDescriptor openings_;  ///< tells when clients open and close the terminal
+  FileDescriptor openings_;  ///< readable when clients open and close the terminal
   int clients_ = 0;
   std::filesystem::path slave_path_;
 };

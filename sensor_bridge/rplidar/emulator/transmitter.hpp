@@ -11,7 +11,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// A transmitter that sends 10 bits a byte, one byte after the other, whether somebody listens or
+/// A transmitter that sends 10 bits a byte, one byte after the other, whether a client listens or
 /// not. What it is given faster than it can send piles up to a limit.
 class Transmitter {
  public:

@@ -43,7 +43,8 @@ void UdpServer::read(std::vector<std::uint8_t>& bytes) {
                                   sender.size_to_fill());
   if (size < 0) return;
   if (sender.text() != client_.text()) {
-    // Strays come to every port: announcements of DDS, for one. They take the stream from nobody.
+    // Strays come to every port: announcements of DDS, for one. They take the stream from no
+    // client.
     if (size == 0 || datagram[0] != request_sync) return;
     report_("client " + sender.text());
     count(waiting_.size(), 0);  // was for another one

@@ -12,7 +12,7 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-void tell(const EmulatorStatus& status, runtime::Activity& activity) {
+void report_status(const EmulatorStatus& status, runtime::Activity& activity) {
   activity.set_diagnostic("Device State", std::string(state_name(status.state)));
   activity.set_diagnostic("Endpoint", status.endpoint);
   activity.set_diagnostic("Bytes Sent", std::to_string(status.sent_bytes));
@@ -45,7 +45,7 @@ std::function<void(runtime::Activity&)> open_emulator(const ServiceConfig& confi
     activity.settle("emulated RPLIDAR at " + emulator->status().endpoint);
     std::thread thread([&] { emulator->run(); });
     do {
-      tell(emulator->status(), activity);
+      report_status(emulator->status(), activity);
     } while (activity.wait_until(std::chrono::steady_clock::now() + std::chrono::seconds(1)));
     emulator->stop();
     thread.join();

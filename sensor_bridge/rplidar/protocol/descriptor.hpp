@@ -11,7 +11,7 @@
 namespace quoin::sensor_bridge::rplidar {
 
 /// What announces an answer: its type, its length, and whether frames of that length follow until
-/// the device is told to stop.
+/// the device receives a stop request.
 struct Descriptor {
   static constexpr std::size_t bytes = 7;
 

@@ -22,11 +22,11 @@ struct Revolution {
   std::vector<std::uint32_t> distance_q2;
   std::vector<std::uint8_t> quality;
   std::vector<float> time_offset;  ///< [s] acquisition of each sample after `begin`
-  std::size_t gaps = 0;            ///< places at which samples are missing
+  std::size_t gaps = 0;            ///< gaps in which samples are missing
 };
 
 /// When samples were acquired. A sensor measures at an even pace, but its bytes arrive late by what
-/// buffers and schedulers please; the earliest arrivals tell the pace. Follows a clock that differs
+/// buffers and schedulers please; the earliest arrivals give the pace. Follows a clock that differs
 /// from the host's by up to 300 parts per million, and begins anew behind a gap.
 class AcquisitionClock {
  public:

@@ -26,7 +26,7 @@ std::uint32_t largest_difference_q6(SampleFormat format, double sample_period) {
   return static_cast<std::uint32_t>(revolutions * full_circle_q6);
 }
 
-/// Whether a frame can begin here, as far as the bytes, of which there is one at least, tell.
+/// Whether a frame can begin here, judged by the bytes, of which there is one at least.
 template <SampleFormat format>
 bool may_begin(std::span<const std::uint8_t> bytes) {
   if constexpr (format == SampleFormat::hq) {
@@ -49,7 +49,7 @@ bool checksum_is_right(const std::uint8_t* frame) {
   }
 }
 
-/// The first place at which a frame may begin, or how many bytes there are.
+/// The first index at which a frame may begin, or how many bytes there are.
 template <SampleFormat format>
 std::size_t begin_of_frame(std::span<const std::uint8_t> bytes) {
   std::size_t offset = 0;
@@ -63,17 +63,17 @@ constexpr std::size_t confirming_sync_bytes(SampleFormat format) {
   return format == SampleFormat::hq ? 0 : capsule_sync_bytes;
 }
 
-/// Whether the byte at this place of a row of nodes can be there.
-bool fits_nodes(const std::uint8_t* nodes, std::size_t place) {
-  const std::uint8_t byte = nodes[place];
-  switch (place % node_bytes) {
+/// Whether the byte at this index of a row of nodes is possible.
+bool fits_nodes(const std::uint8_t* nodes, std::size_t index) {
+  const std::uint8_t byte = nodes[index];
+  switch (index % node_bytes) {
     case 0:
       return ((byte ^ (byte >> 1)) & 1) != 0;
     case 1:
       return (byte & 1) != 0;
     case 2:
       // 360 degrees may come of rounding.
-      return ((nodes[place - 1] >> 1) | byte << 7) <= static_cast<int>(full_circle_q6);
+      return ((nodes[index - 1] >> 1) | byte << 7) <= static_cast<int>(full_circle_q6);
     default:
       return true;
   }
@@ -169,7 +169,7 @@ bool SampleDecoder::is_frame(std::span<const std::uint8_t> bytes) {
   return false;
 }
 
-/// Goes on to the next place in the held bytes at which a frame may begin: a good one may begin
+/// Goes on to the next index in the held bytes at which a frame may begin: a good one may begin
 /// inside what was no frame.
 template <SampleFormat format>
 void SampleDecoder::drop_false_begin() {

@@ -27,7 +27,7 @@ struct DecoderCounts {
 
 /// Turns the bytes behind a descriptor into measurements; finds the frames again after any damage:
 /// what it takes for a frame and is none hides no other one. Capsules are read with the one behind
-/// them, which tells where they end, and never across a gap. No input and no output of its own, and
+/// them, which shows where they end, and never across a gap. No input and no output of its own, and
 /// no memory but its members.
 class SampleDecoder {
  public:

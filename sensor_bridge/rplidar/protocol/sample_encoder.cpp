@@ -36,7 +36,7 @@ void encode_node(const Sample& sample, bool revolution_starts, std::uint8_t* fra
 }
 
 void encode_express(std::span<const Sample> samples, std::uint8_t* frame) {
-  // Readers put the points at even steps and subtract what each one is short of its place.
+  // Readers put the points at even steps and subtract what each one is short of its step.
   const std::uint32_t span =
       (samples.back().angle_q16 + full_circle_q16 - samples.front().angle_q16) % full_circle_q16;
   const double step = static_cast<double>(span) / static_cast<double>(samples.size() - 1);

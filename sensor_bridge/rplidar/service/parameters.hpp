@@ -10,7 +10,7 @@
 
 namespace quoin::sensor_bridge::rplidar {
 
-/// What the RPLIDAR bridge can be told; names as in the vendor's ROS driver where it has them.
+/// Parameters of the RPLIDAR bridge; names as in the vendor's ROS driver where it has them.
 struct RplidarParameters {
   std::string serial_port = "auto";
   std::int64_t serial_baudrate = 0;  ///< [bit/s]; 0 finds it

@@ -39,9 +39,9 @@ class Bridge final : public DriverListener {
                 *this) {
     // REP-138 names the keys.
     const bool serial = endpoint.kind == Endpoint::Kind::serial;
-    tell(serial ? "Serial Port" : "IP Address", serial ? endpoint.path : endpoint.host);
-    if (!serial) tell("IP Port", std::to_string(endpoint.port));
-    tell("Vendor Name", "Slamtec");
+    report_value(serial ? "Serial Port" : "IP Address", serial ? endpoint.path : endpoint.host);
+    if (!serial) report_value("IP Port", std::to_string(endpoint.port));
+    report_value("Vendor Name", "Slamtec");
   }
 
   void run() {
@@ -49,17 +49,17 @@ class Bridge final : public DriverListener {
   }
 
   void state_changed(DriverState state) override {
-    tell("Driver State", std::string(name_of(state)));
+    report_value("Driver State", std::string(name_of(state)));
   }
 
   void connected(const DeviceFacts& facts, const ScanPlan& plan) override {
-    if (facts.baud_rate != 0) tell("Serial Baud", std::to_string(facts.baud_rate));
+    if (facts.baud_rate != 0) report_value("Serial Baud", std::to_string(facts.baud_rate));
     const std::string product = "RPLIDAR " + model_text(facts.info);
-    tell("Product Name", product);
-    tell("Firmware Version", firmware_text(facts.info));
-    tell("Hardware Version", std::to_string(facts.info.hardware));
-    tell("Device ID", serial_number_text(facts.info));
-    tell("Health", std::string(name_of(facts.health.status)));
+    report_value("Product Name", product);
+    report_value("Firmware Version", firmware_text(facts.info));
+    report_value("Hardware Version", std::to_string(facts.info.hardware));
+    report_value("Device ID", serial_number_text(facts.info));
+    report_value("Health", std::string(name_of(facts.health.status)));
     tell_mode(plan.mode);
     source_.settle("connected to " + product + " " + serial_number_text(facts.info) + " at " +
                    facts.endpoint + ", scan mode " + plan.mode.name);
@@ -90,14 +90,14 @@ class Bridge final : public DriverListener {
   }
 
  private:
-  void tell(const std::string& name, const std::string& value) {
+  void report_value(const std::string& name, const std::string& value) {
     source_.set_diagnostic(name, value);
   }
 
   void tell_mode(const ScanMode& mode) {
-    tell("Protocol Version", format_name(mode.format));
-    tell("Scan Mode", mode.name);
-    tell("Sample Period", number(mode.sample_period * 1e6, 3) + " us");
+    report_value("Protocol Version", format_name(mode.format));
+    report_value("Scan Mode", mode.name);
+    report_value("Sample Period", number(mode.sample_period * 1e6, 3) + " us");
   }
 
   /// As often as the heartbeat can show it.
@@ -106,22 +106,22 @@ class Bridge final : public DriverListener {
     if (now < next_counts_) return;
     next_counts_ = now + std::chrono::seconds(1);
     const double period = std::chrono::duration<double>(revolution.end - revolution.begin).count();
-    tell("Scan Frequency", number(1.0 / period, 2) + " Hz");
-    tell("Samples", std::to_string(driver_.counts().samples));
-    tell("Lost Samples", std::to_string(driver_.counts().lost_samples));
-    tell("Checksum Errors", std::to_string(driver_.counts().checksum_errors));
+    report_value("Scan Frequency", number(1.0 / period, 2) + " Hz");
+    report_value("Samples", std::to_string(driver_.counts().samples));
+    report_value("Lost Samples", std::to_string(driver_.counts().lost_samples));
+    report_value("Checksum Errors", std::to_string(driver_.counts().checksum_errors));
     tell_recoveries();
   }
 
   void tell_recoveries() {
     const DriverCounts& counts = driver_.counts();
-    tell("Connections", std::to_string(counts.connections));
-    tell("Device Resets", std::to_string(counts.resets));
+    report_value("Connections", std::to_string(counts.connections));
+    report_value("Device Resets", std::to_string(counts.resets));
     for (int i = 0; i < finding_count; ++i) {
       const auto finding = static_cast<Finding>(i);
       const std::uint64_t count = counts.recoveries_from(finding);
       if (count > 0) {
-        tell("Recoveries from " + std::string(name_of(finding)), std::to_string(count));
+        report_value("Recoveries from " + std::string(name_of(finding)), std::to_string(count));
       }
     }
   }
@@ -131,7 +131,7 @@ class Bridge final : public DriverListener {
   Driver driver_;
   std::optional<ScanMode> mode_;  // of scan_
   msg::Scan scan_;
-  bool troubled_ = false;  // a problem was told since the last revolution
+  bool troubled_ = false;  // a problem was reported since the last revolution
   Clock::time_point next_counts_{};
 };
 

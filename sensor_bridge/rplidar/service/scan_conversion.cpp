@@ -17,7 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double radians_per_q16 = 2.0 * pi / full_circle_q16;
 
-/// (-pi, pi], of the angle that the device tells.
+/// (-pi, pi], of the angle that the device reports.
 float bearing_of(double angle_q16, bool inverted) {
   const double turned = angle_q16 * radians_per_q16;  // [0, 2 pi)
   if (inverted) return static_cast<float>(turned > pi ? turned - 2.0 * pi : turned);

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/evaluation/cramer_rao.hpp"
 #include "core/fitting/fitters.hpp"
 #include "core/geometry/angle.hpp"
 

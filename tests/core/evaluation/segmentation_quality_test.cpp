@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/segmentation/segmenters.hpp"
-#include "core/simulation/cluttered_room.hpp"
+#include "core/simulation/world.hpp"
 
 namespace quoin {
 namespace {

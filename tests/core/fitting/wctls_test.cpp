@@ -48,8 +48,8 @@ TEST_P(AlgebraicFitter, GivesTheCornerOfThePublishedEquations) {
 TEST(Wctls, GivesTheCornerOfItsConformalPoint) {
   const Points p = first_wall();
   const Points q = second_wall();
-  // C_Q by exact influences, mapped back from (alpha, r): from Q and from the normal form it is the
-  // same.
+  // C_Q by exact derivatives, mapped back from (alpha, r): from Q and from the normal form it is
+  // the same.
   const auto to_q = [](const LineEstimate& e) {
     const double c = std::cos(e.line.alpha);
     const double s = std::sin(e.line.alpha);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace quoin {
 namespace {
@@ -43,6 +43,15 @@ TEST(ComputeCartesian, IsExactAtQuarterTurns) {
     bearings.push_back(static_cast<double>(k));
   }
   expect_accurate(bearings);
+}
+
+TEST(ConvertOrdered, TakesPointsAsTheyAre) {
+  Points p;
+  const std::vector<float> bearings{3.0F, 1.0F};
+  const std::vector<float> ranges{2.0F, 4.0F};
+  convert_ordered(bearings, ranges, p);
+  EXPECT_THAT(p.range, testing::ElementsAre(2.0, 4.0));
+  EXPECT_NEAR(p.y[1], 4.0 * std::sin(1.0), 1e-15);
 }
 
 }  // namespace

@@ -94,14 +94,5 @@ TEST_P(Rotated, GivesTheSamePoints) {
 
 INSTANTIATE_TEST_SUITE_P(ByAnyIndex, Rotated, testing::Values(0, 1, 13, 250, 459, 460, 777, 919));
 
-TEST(ConvertOrdered, TakesPointsAsTheyAre) {
-  Points p;
-  const std::vector<float> bearings{3.0F, 1.0F};
-  const std::vector<float> ranges{2.0F, 4.0F};
-  convert_ordered(bearings, ranges, p);
-  EXPECT_THAT(p.range, ElementsAre(2.0, 4.0));
-  EXPECT_NEAR(p.y[1], 4.0 * std::sin(1.0), 1e-15);
-}
-
 }  // namespace
 }  // namespace quoin

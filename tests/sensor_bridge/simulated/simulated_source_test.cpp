@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/simulated/scanner_settings.hpp"
+#include "sensor_bridge/simulated/parameters.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
 #include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/simulated/scanner_settings.hpp"
+#include "sensor_bridge/simulated/parameters.hpp"
 
 #include <numbers>
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/simulation/cluttered_room.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/simulation/scanner.hpp"
+#include "core/simulation/world.hpp"
 
 namespace quoin {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/simulated/scanner_settings.hpp"
+#include "sensor_bridge/simulated/parameters.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -13,7 +13,7 @@ ScannerSettings scanner_settings(const SimulatedParameters& parameters) {
   check_range_limits(parameters);
   ScannerSettings settings;
   settings.points = static_cast<std::size_t>(parameters.points);
-  // The limit of the parameter is 2 pi rounded up, for those who write 6.2832.
+  // The limit of the parameter is 2 pi rounded up, so that 6.2832 is valid.
   settings.field_of_view = std::min(parameters.field_of_view, 2.0 * std::numbers::pi);
   settings.first_bearing = -0.5 * settings.field_of_view;
   settings.period = 1.0 / parameters.rate_hz;
