@@ -71,7 +71,7 @@ Changeover::Changeover(World world, const Deployment& running, const Deployment&
 
 void Changeover::prepare() {
   try {
-    world_.monitor.add(wanted_);
+    world_.record.add(wanted_);
     start_newcomers();
     wait_until_ready();
     swap_methods();
@@ -86,7 +86,7 @@ void Changeover::commit() {
   if (committed_) return;
   committed_ = true;
   for (const ProcessPlan& plan : plans_) {
-    if (!plan_.replaces(plan.name)) world_.supervisor.replan(plan);
+    if (!plan_.replaces(plan.name)) world_.processes.replan(plan);
   }
 }
 
@@ -97,7 +97,7 @@ void Changeover::change(const std::string& service) {
                    [&](const Change& candidate) { return candidate.service == service; });
   if (change == plan_.changes.end() || !done_.insert(service).second) return;
   if (change->action == ChangeAction::stop) {
-    if (const auto key = world_.supervisor.key_of(service)) stop({*key});
+    if (const auto key = world_.processes.key_of(service)) stop({*key});
     return;
   }
   const auto newcomer =
@@ -116,14 +116,14 @@ void Changeover::finish() {
   // From the sources on, so that what takes over gets its input from what took over before.
   for (const Newcomer& newcomer : newcomers_) change(newcomer.change->service);
   stop_removed();
-  world_.monitor.settle(wanted_);
+  world_.record.confirm(wanted_);
 }
 
 void Changeover::start_newcomers() {
   for (const Change& change : plan_.changes) {
     if (change.action == ChangeAction::replace) {
-      if (const auto key = world_.supervisor.key_of(change.service)) {
-        if (world_.supervisor.running(*key)) predecessors_[change.service] = *key;
+      if (const auto key = world_.processes.key_of(change.service)) {
+        if (world_.processes.running(*key)) predecessors_[change.service] = *key;
       }
     }
   }
@@ -142,15 +142,15 @@ void Changeover::start(const Change& change) {
   if (!can_be_held(config)) {
     // It has a device or a port of which there is only one.
     if (const auto old = predecessors_.find(change.service); old != predecessors_.end()) {
-      stopped_beforehand_.push_back(world_.supervisor.plan(old->second));
+      stopped_beforehand_.push_back(world_.processes.plan(old->second));
       stop({old->second});
       predecessors_.erase(old);
     }
-    newcomers_.push_back({&change, &config, &*plan, world_.supervisor.add(*plan)});
+    newcomers_.push_back({&change, &config, &*plan, world_.processes.add(*plan)});
     return;
   }
   newcomers_.push_back(
-      {&change, &config, &*plan, world_.supervisor.add(held_plan(*plan, readers_to_go(config)))});
+      {&change, &config, &*plan, world_.processes.add(held_plan(*plan, readers_to_go(config)))});
 }
 
 // Readers of the present output that are still there, but not for long: they must not be taken for
@@ -169,27 +169,27 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
       count += static_cast<int>(readers);
     }
     if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
-    const auto key = world_.supervisor.key_of(label(*reader));
-    if (key && world_.supervisor.running(*key)) count += static_cast<int>(readers);
+    const auto key = world_.processes.key_of(label(*reader));
+    if (key && world_.processes.running(*key)) count += static_cast<int>(readers);
   }
   return count;
 }
 
 void Changeover::wait_until_ready() {
-  const auto deadline = Clock::now() + patience_;
+  const auto deadline = world_.dialogue.now() + patience_;
   std::set<std::string> waiting;
   for (const Newcomer& newcomer : newcomers_) waiting.insert(label(*newcomer.config));
   while (!waiting.empty()) {
     for (Newcomer& newcomer : newcomers_) {
       const std::string& name = label(*newcomer.config);
       if (!waiting.contains(name)) continue;
-      if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
+      if (const auto end = world_.processes.end_of_trial(newcomer.key)) {
         const std::string line = message_of(world_.last_line(name), name);
         throw std::runtime_error("the new process of service '" + name + "' ended with " +
                                  describe(*end) + (line.empty() ? "" : ": " + line));
       }
       if (ready(newcomer)) waiting.erase(name);
-      if (!waiting.empty() && Clock::now() > deadline) {
+      if (!waiting.empty() && world_.dialogue.now() > deadline) {
         throw std::runtime_error(why_not_ready(newcomer));
       }
     }
@@ -201,15 +201,15 @@ void Changeover::wait_until_ready() {
     if (!world_.dialogue.ask(name, incarnation_of(key), msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
                                "' does not answer; it is process " +
-                               std::to_string(world_.supervisor.process_id(key)));
+                               std::to_string(world_.processes.process_id(key)));
     }
   }
 }
 
 bool Changeover::ready(Newcomer& newcomer) {
-  if (newcomer.config->external()) return world_.supervisor.running(newcomer.key);
+  if (newcomer.config->external()) return world_.processes.running(newcomer.key);
   const auto process =
-      world_.monitor.process(label(*newcomer.config), world_.supervisor.process_id(newcomer.key));
+      world_.record.process(label(*newcomer.config), world_.processes.process_id(newcomer.key));
   if (!process) return false;
   if (!can_be_held(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
@@ -222,13 +222,13 @@ bool Changeover::ready(Newcomer& newcomer) {
 // Of a process of ours, should there be others of that name; 0 when nothing was heard of it.
 std::uint64_t Changeover::incarnation_of(int key) const {
   const auto process =
-      world_.monitor.process(world_.supervisor.plan(key).name, world_.supervisor.process_id(key));
+      world_.record.process(world_.processes.plan(key).name, world_.processes.process_id(key));
   return process ? process->incarnation : 0;
 }
 
 std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
   const std::string& name = label(*newcomer.config);
-  const auto process = world_.monitor.process(name, world_.supervisor.process_id(newcomer.key));
+  const auto process = world_.record.process(name, world_.processes.process_id(newcomer.key));
   std::string text =
       "the new process of service '" + name + "' was not ready within " + in_seconds(patience_);
   if (!process) return text + ": nothing was heard of it";
@@ -251,20 +251,20 @@ void Changeover::roll_back() {
   for (const std::string& name : swapped_) (void)world_.dialogue.swap(running_.service(name));
   first_scans_.clear();
   for (const Newcomer& newcomer : newcomers_) {
-    const int process_id = world_.supervisor.process_id(newcomer.key);
+    const int process_id = world_.processes.process_id(newcomer.key);
     stop({newcomer.key});
-    world_.monitor.forget(label(*newcomer.config), process_id);
+    world_.record.forget(label(*newcomer.config), process_id);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
-    const int key = world_.supervisor.add(plan);
-    world_.supervisor.adopt(key, plan);
+    const int key = world_.processes.add(plan);
+    world_.processes.adopt(key, plan);
   }
-  world_.monitor.settle(running_);
+  world_.record.confirm(running_);
 }
 
 void Changeover::begin(const Newcomer& newcomer) {
   if (!can_be_held(*newcomer.config)) {
-    world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+    world_.processes.adopt(newcomer.key, *newcomer.plan);
     return;
   }
   const msg::ControlReply held = hold(newcomer, milliseconds(0));
@@ -283,7 +283,7 @@ void Changeover::take_over(const Newcomer& newcomer) {
   const bool same_scans = newcomer.change->same_scans;
   const bool source = newcomer.config->is_source();
   const msg::ControlReply held = hold(newcomer, source ? seconds(0) : first_scan_patience);
-  world_.supervisor.retire(predecessor->second, false);
+  world_.processes.retire(predecessor->second, false);
   msg::ControlRequest leave;
   leave.action(msg::ControlAction::CONTROL_HAND_OVER);
   if (same_scans) leave.positions(held.positions());
@@ -294,8 +294,8 @@ void Changeover::take_over(const Newcomer& newcomer) {
     if (same_scans) take.positions(handed_over->positions());
     take.state(handed_over->state());
   } else {
-    world_.supervisor.kill(predecessor->second);
-    world_.dialogue.wait_until([&] { return !world_.supervisor.running(predecessor->second); },
+    world_.processes.kill(predecessor->second);
+    world_.dialogue.wait_until([&] { return !world_.processes.running(predecessor->second); },
                                seconds(5));
   }
   first_scans_[label(*newcomer.config)] = same_scans && !take.positions().empty()
@@ -305,41 +305,42 @@ void Changeover::take_over(const Newcomer& newcomer) {
 }
 
 msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = world_.dialogue.now() + patience;
   while (true) {
     const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
                                            msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
-    if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
+    if (reply->held_scans() > 0 || world_.dialogue.now() >= deadline) return *reply;
     if (!world_.dialogue.pump()) return *reply;
   }
 }
 
 void Changeover::begin_with(const Newcomer& newcomer, msg::ControlRequest take) {
-  world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+  world_.processes.adopt(newcomer.key, *newcomer.plan);
   take.action(msg::ControlAction::CONTROL_TAKE_OVER);
   const auto reply =
       world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation, std::move(take));
   // Started again it works like any other.
-  if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
+  const bool begun = reply && reply->accepted();
+  if (!begun && !world_.processes.stopping()) world_.processes.kill(newcomer.key);
 }
 
 void Changeover::stop_removed() {
   std::map<int, std::vector<int>> levels;
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::stop || done_.contains(change.service)) continue;
-    if (const auto key = world_.supervisor.key_of(change.service)) {
-      levels[world_.supervisor.plan(*key).level].push_back(*key);
+    if (const auto key = world_.processes.key_of(change.service)) {
+      levels[world_.processes.plan(*key).level].push_back(*key);
     }
   }
   for (const auto& [level, keys] : levels) stop(keys);
 }
 
 void Changeover::stop(const std::vector<int>& keys) {
-  for (const int key : keys) world_.supervisor.retire(key, true);
+  for (const int key : keys) world_.processes.retire(key, true);
   for (const int key : keys) {
     // Killed after five seconds.
-    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+    world_.dialogue.wait_until([&] { return !world_.processes.running(key); }, seconds(10));
   }
 }
 
