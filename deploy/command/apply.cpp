@@ -142,7 +142,7 @@ int run(const ApplyOptions& options) {
   require_keys(deployment, {std::string(operator_identity)});
   runtime::Participant participant(
       runtime::participant_config(deployment, "quoin_apply", operator_identity));
-  Requester requester(participant, deployment.name_space);
+  DdsRequester requester(participant, deployment.name_space);
   reach(requester, deployment, hosts, options.wait, interrupted);
   msg::ControlRequest request;
   request.action(msg::ControlAction::CONTROL_APPLY);

@@ -69,7 +69,7 @@ int run(const ControlOptions& options, msg::ControlAction action) {
   if (!options.file.empty()) (void)deployment.service(options.service);
   runtime::Participant participant(
       runtime::participant_config(deployment, "quoin_control", operator_identity));
-  Requester requester(participant, deployment.name_space);
+  DdsRequester requester(participant, deployment.name_space);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                            std::chrono::duration<double>(options.wait));
   if (!requester.reach(options.service, deadline)) {

@@ -6,17 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "services/runtime/dds/qos.hpp"
 #include "services/topics/header.hpp"
-#include "services/topics/topic_types.hpp"
 
 namespace quoin::deploy {
 
 namespace {
-
-std::string dds_type(const std::string& type) {
-  return std::string(topics::find_topic_type(type)->dds_type);
-}
 
 void count(const runtime::LossCounts& counts, LossFigures& figures) {
   for (const auto& [site, lost] : counts) {
@@ -56,37 +50,25 @@ CornerFigures CornerStatistics::figures(std::uint64_t scans) const {
   return figures;
 }
 
-EndWatch::EndWatch(runtime::Participant& participant, const Connection& end, std::string name,
-                   bool joined_late)
+EndWatch::EndWatch(const Connection& end, std::string name, bool joined_late)
     : name_(std::move(name)),
       service_(end.writer->name),
       type_(end.type),
-      reader_(participant, end.output.topic, dds_type(end.type),
-              runtime::output_qos(*end.writer, end.output)),
       joined_late_(joined_late),
       gives_corners_(end.type == "corners") {}
 
-bool EndWatch::take_all(const std::function<void(const msg::Header&)>& on_message) {
-  bool any = false;
-  while (reader_.take(raw_)) {
-    any = true;
-    if (!topics::read_header(raw_, header_)) continue;  // no message of ours
-    const std::uint64_t received = accounting_.received();
-    accounting_.receive(header_);
-    if (accounting_.received() == received) continue;  // the same message again
-    if (received == 0 && !joined_late_) first_number_ = topics::sequence_number(header_);
-    add(header_);
-    if (gives_corners_ && topics::decode(raw_, message_)) corners_.add(message_);
-    on_message(header_);
+bool EndWatch::receive(const msg::Header& header, const msg::Corners* corners) {
+  const std::uint64_t received = accounting_.received();
+  accounting_.receive(header);
+  if (accounting_.received() == received) return false;
+  if (received == 0 && !joined_late_) first_number_ = topics::sequence_number(header);
+  if (!header.trace().empty()) {
+    source_trace_ = header.trace().front();
+    latency_.add(
+        static_cast<double>(header.trace().back().published() - source_trace_.published()) * 1e-9);
   }
-  return any;
-}
-
-void EndWatch::add(const msg::Header& header) {
-  if (header.trace().empty()) return;
-  source_trace_ = header.trace().front();
-  latency_.add(static_cast<double>(header.trace().back().published() - source_trace_.published()) *
-               1e-9);
+  if (gives_corners_ && corners != nullptr) corners_.add(*corners);
+  return true;
 }
 
 void EndWatch::set_path(const std::vector<Connection>& path) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <idl/Common.h>
 #include <idl/Corners.h>
 #include <map>
 #include <string>
@@ -14,9 +14,6 @@
 #include "services/deployment/graph.hpp"
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/accounting/source_ledger.hpp"
-#include "services/runtime/dds/endpoints.hpp"
-#include "services/runtime/dds/participant.hpp"
-#include "services/topics/cdr_codec.hpp"
 
 namespace quoin::deploy {
 
@@ -40,18 +37,16 @@ class CornerStatistics {
   QuantileHistogram ellipse_area_;
 };
 
-/// Takes what comes out of an output that no service reads, whatever its type, and accounts for
-/// each message of its source.
+/// Accounts for each message of the source of an output that no service reads, whatever its type,
+/// from the headers of what arrives there.
 class EndWatch {
  public:
   /// `name`: what its figures are called. `joined_late`: the deployment ran before, the scans so
-  /// far are for nobody. Throws std::runtime_error when DDS refuses.
-  EndWatch(runtime::Participant& participant, const Connection& end, std::string name,
-           bool joined_late);
+  /// far are for nobody.
+  EndWatch(const Connection& end, std::string name, bool joined_late);
 
   [[nodiscard]] const std::string& service() const { return service_; }
   [[nodiscard]] const std::string& type() const { return type_; }
-  [[nodiscard]] runtime::ReaderBase& reader() { return reader_; }
   /// The way of its messages, from the output that numbers them on.
   void set_path(const std::vector<Connection>& path);
   /// Of the messages of that output.
@@ -61,9 +56,9 @@ class EndWatch {
   /// Of the last message: the source's part.
   [[nodiscard]] const msg::StageTrace& source_trace() const { return source_trace_; }
 
-  /// Takes all that has come; `on_message` gets the header of each new one. False when there was
-  /// nothing.
-  bool take_all(const std::function<void(const msg::Header&)>& on_message);
+  /// A message arrived; `corners` is the message itself when it is of that type. False when it is a
+  /// repetition, which counts for nothing.
+  bool receive(const msg::Header& header, const msg::Corners* corners = nullptr);
 
   /// It is no part of the deployment. Should it come back, what happens meanwhile is for nobody.
   void interrupt();
@@ -78,7 +73,6 @@ class EndWatch {
   [[nodiscard]] EndFigures figures(const std::vector<SourceInstance>& instances) const;
 
  private:
-  void add(const msg::Header& header);
   [[nodiscard]] std::uint64_t lost_at_start(const std::vector<SourceInstance>& instances) const;
 
   std::string name_;
@@ -88,7 +82,6 @@ class EndWatch {
   std::string source_type_;                    // of what it numbers
   std::map<std::string, std::string> topics_;  // by service on the way
   msg::StageTrace source_trace_;
-  runtime::RawReader reader_;
   runtime::ScanAccounting accounting_;
   bool joined_late_;
   bool ended_ = false;
@@ -96,10 +89,6 @@ class EndWatch {
   QuantileHistogram latency_;
   bool gives_corners_;
   CornerStatistics corners_;
-  // Memory is kept from message to message.
-  topics::RawMessage raw_;
-  msg::Header header_;
-  msg::Corners message_;
 };
 
 }  // namespace quoin::deploy

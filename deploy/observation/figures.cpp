@@ -4,6 +4,10 @@
 
 namespace quoin::deploy {
 
+namespace {
+constexpr const char* held_state = "held";
+}
+
 std::map<std::uint64_t, ServiceReport> Incarnations::processes() const {
   std::map<std::uint64_t, ServiceReport> processes = reports_;
   for (const auto& [key, count] : published_at_least_) {
@@ -17,16 +21,24 @@ std::map<std::uint64_t, ServiceReport> Incarnations::processes() const {
 
 ServiceReport Incarnations::total() const {
   ServiceReport total;
-  if (!reports_.empty()) total = reports_.rbegin()->second;
-  for (auto report = reports_.begin(); report != reports_.end(); ++report) {
-    if (std::next(report) == reports_.end()) break;
-    const ServiceReport& older = report->second;
-    total.received += older.received;
-    total.published += older.published;
-    total.lost += older.lost;
-    total.upstream_lost += older.upstream_lost;
-    total.failures += older.failures;
-    for (const auto& [cause, count] : older.losses) total.losses[cause] += count;
+  const ServiceReport* newest = nullptr;
+  for (const auto& [incarnation, report] : reports_) {
+    // While a new process is held the one before does the work.
+    if (newest == nullptr || report.state != held_state) newest = &report;
+  }
+  if (newest != nullptr) total = *newest;
+  for (const auto& [incarnation, other] : reports_) {
+    if (&other == newest) continue;
+    total.received += other.received;
+    total.published += other.published;
+    total.lost += other.lost;
+    total.upstream_lost += other.upstream_lost;
+    total.failures += other.failures;
+    for (const auto& [cause, count] : other.losses) total.losses[cause] += count;
+    for (const auto& [topic, output] : other.outputs) {
+      total.outputs[topic].published += output.published;
+      total.outputs[topic].lost += output.lost;
+    }
   }
   for (const auto& [key, count] : published_at_least_) {
     if (key.second != topic_) continue;

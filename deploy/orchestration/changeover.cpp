@@ -68,7 +68,7 @@ Changeover::Changeover(World world, const Deployment& running, const Deployment&
 
 void Changeover::prepare() {
   try {
-    world_.monitor.add(wanted_);
+    world_.record.add(wanted_);
     start_newcomers();
     wait_until_ready();
     swap_methods();
@@ -85,7 +85,7 @@ void Changeover::commit() {
   for (const ProcessPlan& plan : plans_) {
     const bool replaced = std::ranges::any_of(
         plan.services, [&](const std::string& service) { return plan_.replaces(service); });
-    if (!replaced) world_.supervisor.replan(plan);
+    if (!replaced) world_.processes.replan(plan);
   }
 }
 
@@ -116,14 +116,14 @@ void Changeover::finish() {
   // From the sources on, so that what takes over gets its input from what took over before.
   for (const Newcomer& newcomer : newcomers_) change(newcomer.change->service);
   stop_removed();
-  world_.monitor.settle(wanted_);
+  world_.record.confirm(wanted_);
 }
 
 void Changeover::start_newcomers() {
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::replace && change.action != ChangeAction::stop) continue;
-    const auto key = world_.supervisor.key_of(change.service);
-    if (key && world_.supervisor.running(*key)) predecessors_[change.service] = *key;
+    const auto key = world_.processes.key_of(change.service);
+    if (key && world_.processes.running(*key)) predecessors_[change.service] = *key;
   }
   std::map<std::string, int> keys;  // of the new processes, by name
   for (const Change& change : plan_.changes) {
@@ -146,17 +146,17 @@ int Changeover::start(const ProcessPlan& plan) {
     held = held && can_be_held(config);
     if (const int count = readers_to_go(config); count > 0) more_readers[service] = count;
   }
-  if (held) return world_.supervisor.add(held_plan(plan, more_readers));
+  if (held) return world_.processes.add(held_plan(plan, more_readers));
   // It has a device or a port of which there is only one.
   for (const std::string& service : plan.services) {
     const auto old = predecessors_.find(service);
     if (old == predecessors_.end()) continue;
     const int key = old->second;
-    stopped_beforehand_.push_back(world_.supervisor.plan(key));
+    stopped_beforehand_.push_back(world_.processes.plan(key));
     stop({key});
     std::erase_if(predecessors_, [&](const auto& entry) { return entry.second == key; });
   }
-  return world_.supervisor.add(plan);
+  return world_.processes.add(plan);
 }
 
 // Readers of the present output that are still there, but not for long: they must not be taken for
@@ -175,27 +175,27 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
       count += static_cast<int>(readers);
     }
     if (!plan_.replaces(label(*reader)) && !plan_.stops(label(*reader))) continue;
-    const auto key = world_.supervisor.key_of(label(*reader));
-    if (key && world_.supervisor.running(*key)) count += static_cast<int>(readers);
+    const auto key = world_.processes.key_of(label(*reader));
+    if (key && world_.processes.running(*key)) count += static_cast<int>(readers);
   }
   return count;
 }
 
 void Changeover::wait_until_ready() {
-  const auto deadline = Clock::now() + patience_;
+  const auto deadline = world_.dialogue.now() + patience_;
   std::set<std::string> waiting;
   for (const Newcomer& newcomer : newcomers_) waiting.insert(label(*newcomer.config));
   while (!waiting.empty()) {
     for (Newcomer& newcomer : newcomers_) {
       const std::string& name = label(*newcomer.config);
       if (!waiting.contains(name)) continue;
-      if (const auto end = world_.supervisor.end_of_trial(newcomer.key)) {
+      if (const auto end = world_.processes.end_of_trial(newcomer.key)) {
         const std::string line = message_of(world_.last_line(newcomer.plan->name));
         throw std::runtime_error("the new process of service '" + name + "' ended with " +
                                  describe(*end) + (line.empty() ? "" : ": " + line));
       }
       if (ready(newcomer)) waiting.erase(name);
-      if (!waiting.empty() && Clock::now() > deadline) {
+      if (!waiting.empty() && world_.dialogue.now() > deadline) {
         throw std::runtime_error(why_not_ready(newcomer));
       }
     }
@@ -208,15 +208,15 @@ void Changeover::wait_until_ready() {
                              msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
                                "' does not answer; it is process " +
-                               std::to_string(world_.supervisor.process_id(key)));
+                               std::to_string(world_.processes.process_id(key)));
     }
   }
 }
 
 bool Changeover::ready(Newcomer& newcomer) {
-  if (newcomer.config->external()) return world_.supervisor.running(newcomer.key);
+  if (newcomer.config->external()) return world_.processes.running(newcomer.key);
   const auto process =
-      world_.monitor.process(label(*newcomer.config), world_.supervisor.process_id(newcomer.key));
+      world_.record.process(label(*newcomer.config), world_.processes.process_id(newcomer.key));
   if (!process) return false;
   if (!can_be_held(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
@@ -228,13 +228,13 @@ bool Changeover::ready(Newcomer& newcomer) {
 
 // In a process of ours, should there be others of that name; 0 when nothing was heard of it.
 std::uint64_t Changeover::incarnation_of(const std::string& service, int key) const {
-  const auto process = world_.monitor.process(service, world_.supervisor.process_id(key));
+  const auto process = world_.record.process(service, world_.processes.process_id(key));
   return process ? process->incarnation : 0;
 }
 
 std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
   const std::string& name = label(*newcomer.config);
-  const auto process = world_.monitor.process(name, world_.supervisor.process_id(newcomer.key));
+  const auto process = world_.record.process(name, world_.processes.process_id(newcomer.key));
   std::string text =
       "the new process of service '" + name + "' was not ready within " + in_seconds(patience_);
   if (!process) return text + ": nothing was heard of it";
@@ -259,16 +259,16 @@ void Changeover::roll_back() {
   std::set<int> keys;
   for (const Newcomer& newcomer : newcomers_) keys.insert(newcomer.key);
   std::map<int, int> process_ids;
-  for (const int key : keys) process_ids[key] = world_.supervisor.process_id(key);
+  for (const int key : keys) process_ids[key] = world_.processes.process_id(key);
   for (const int key : keys) stop({key});
   for (const Newcomer& newcomer : newcomers_) {
-    world_.monitor.forget(label(*newcomer.config), process_ids[newcomer.key]);
+    world_.record.forget(label(*newcomer.config), process_ids[newcomer.key]);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
-    const int key = world_.supervisor.add(plan);
-    world_.supervisor.adopt(key, plan);
+    const int key = world_.processes.add(plan);
+    world_.processes.adopt(key, plan);
   }
-  world_.monitor.settle(running_);
+  world_.record.confirm(running_);
 }
 
 /// Whoever takes over from a process that reads the same scans keeps them from now on: what runs
@@ -285,7 +285,7 @@ void Changeover::hold_all() {
 
 void Changeover::begin(const Newcomer& newcomer) {
   if (!can_be_held(*newcomer.config)) {
-    world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+    world_.processes.adopt(newcomer.key, *newcomer.plan);
     return;
   }
   const msg::ControlReply held = hold(newcomer, milliseconds(0));
@@ -308,7 +308,7 @@ void Changeover::take_over(const Newcomer& newcomer) {
   const std::string name = label(*newcomer.config);
   const int key = predecessor->second;
   // Each of its services may take its time.
-  world_.supervisor.retire(key, false, world_.supervisor.plan(key).services.size());
+  world_.processes.retire(key, false, world_.processes.plan(key).services.size());
   msg::ControlRequest leave;
   leave.action(msg::ControlAction::CONTROL_HAND_OVER);
   if (same_scans) leave.positions(held.positions());
@@ -318,8 +318,8 @@ void Changeover::take_over(const Newcomer& newcomer) {
     if (same_scans) take.positions(handed_over->positions());
     take.state(handed_over->state());
   } else {
-    world_.supervisor.kill(key);
-    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(5));
+    world_.processes.kill(key);
+    world_.dialogue.wait_until([&] { return !world_.processes.running(key); }, seconds(5));
   }
   first_scans_[name] = same_scans && !take.positions().empty()
                            ? take.positions().front().sequence_number()
@@ -328,23 +328,24 @@ void Changeover::take_over(const Newcomer& newcomer) {
 }
 
 msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = world_.dialogue.now() + patience;
   while (true) {
     const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
                                            msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
-    if (reply->held_scans() > 0 || Clock::now() >= deadline) return *reply;
+    if (reply->held_scans() > 0 || world_.dialogue.now() >= deadline) return *reply;
     if (!world_.dialogue.pump()) return *reply;
   }
 }
 
 void Changeover::begin_with(const Newcomer& newcomer, msg::ControlRequest take) {
-  world_.supervisor.adopt(newcomer.key, *newcomer.plan);
+  world_.processes.adopt(newcomer.key, *newcomer.plan);
   take.action(msg::ControlAction::CONTROL_TAKE_OVER);
   const auto reply =
       world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation, std::move(take));
   // Started again it works like any other.
-  if (!reply && !world_.supervisor.stopping()) world_.supervisor.kill(newcomer.key);
+  const bool begun = reply && reply->accepted();
+  if (!begun && !world_.processes.stopping()) world_.processes.kill(newcomer.key);
 }
 
 void Changeover::stop_removed() {
@@ -354,7 +355,7 @@ void Changeover::stop_removed() {
     const auto key = predecessors_.find(change.service);
     if (key == predecessors_.end()) continue;
     const int level = std::max(Graph(running_).level(running_.service(change.service)),
-                               world_.supervisor.plan(key->second).level);
+                               world_.processes.plan(key->second).level);
     levels[level].push_back(change.service);
   }
   for (const auto& [level, services] : levels) {
@@ -367,8 +368,8 @@ void Changeover::stop_service(const std::string& service) {
   const auto predecessor = predecessors_.find(service);
   if (predecessor == predecessors_.end()) return;
   const int key = predecessor->second;
-  if (!world_.supervisor.running(key)) return;
-  const std::vector<std::string>& services = world_.supervisor.plan(key).services;
+  if (!world_.processes.running(key)) return;
+  const std::vector<std::string>& services = world_.processes.plan(key).services;
   const bool whole =
       std::ranges::all_of(services, [&](const std::string& other) { return plan_.stops(other); });
   if (whole) {
@@ -380,10 +381,10 @@ void Changeover::stop_service(const std::string& service) {
 }
 
 void Changeover::stop(const std::vector<int>& keys) {
-  for (const int key : keys) world_.supervisor.retire(key, true);
+  for (const int key : keys) world_.processes.retire(key, true);
   for (const int key : keys) {
     // Killed after five seconds.
-    world_.dialogue.wait_until([&] { return !world_.supervisor.running(key); }, seconds(10));
+    world_.dialogue.wait_until([&] { return !world_.processes.running(key); }, seconds(10));
   }
 }
 

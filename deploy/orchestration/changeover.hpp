@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "deploy/observation/monitor.hpp"
+#include "deploy/observation/deployment_record.hpp"
 #include "deploy/orchestration/dialogue.hpp"
 #include "deploy/orchestration/plan.hpp"
-#include "deploy/orchestration/supervisor.hpp"
+#include "deploy/orchestration/supervised_processes.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
@@ -30,8 +30,8 @@ namespace quoin::deploy {
 class Changeover {
  public:
   struct World {
-    Supervisor& supervisor;
-    Monitor& monitor;
+    SupervisedProcesses& processes;
+    DeploymentRecord& record;
     Dialogue& dialogue;
     /// Whether not to wait any longer for what is new to be ready.
     std::function<bool()> withdrawn;
@@ -60,7 +60,6 @@ class Changeover {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Newcomer {
     const Change* change;
     const ServiceConfig* config;

@@ -28,6 +28,7 @@ struct Part {
   msg::ControlReply reply;   // the newest
   bool ended = false;        // that was the last one
   bool answered = true;
+  bool silent = false;  // left a change unanswered
 
   [[nodiscard]] bool ready() const { return !ended && reply.ready(); }
   [[nodiscard]] bool plans(ChangeAction action, const std::string& service) const {
@@ -68,8 +69,8 @@ class Concert {
   }
 
  private:
-  static Clock::time_point from_now(Seconds time) {
-    return Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
+  [[nodiscard]] Clock::time_point from_now(Seconds time) const {
+    return requester_.now() + std::chrono::duration_cast<Clock::duration>(time);
   }
 
   // Takes the next answer; without one it has ended.
@@ -94,7 +95,7 @@ class Concert {
 
   // Until all are, or one will not be.
   void wait_until_ready() {
-    const auto begin = Clock::now();
+    const auto begin = requester_.now();
     // Alone it goes on by itself.
     const bool alone = parts_.size() == 1;
     const auto patience = [&](const Part& part) {
@@ -109,7 +110,7 @@ class Concert {
         if (settled(part)) continue;
         if (const auto reply = requester_.wait(part.number, from_now(Seconds(0.02)))) {
           take(part, *reply);
-        } else if (Clock::now() - begin > patience(part)) {
+        } else if (requester_.now() - begin > patience(part)) {
           listen(part, Seconds(0.0));
         }
       }
@@ -120,13 +121,13 @@ class Concert {
     return longest_change * static_cast<double>(1 + part.reply.steps().size());
   }
 
-  void tell(const Part& part, msg::ControlAction action, const std::string& change) {
+  void tell(Part& part, msg::ControlAction action, const std::string& change) {
     msg::ControlRequest cue;
     cue.service(supervisor_name(part.host));
     cue.action(action);
     cue.change(change);
     const std::uint64_t number = requester_.send(cue);
-    if (!change.empty()) (void)requester_.wait(number, from_now(longest_change));
+    if (!change.empty()) part.silent = !requester_.wait(number, from_now(longest_change));
   }
 
   void end(msg::ControlAction action) {
@@ -139,7 +140,7 @@ class Concert {
     for (Part* part : waiting) {
       // The plan and the readiness may still be on their way.
       const auto deadline = from_now(patience_ + time_to_change(*part));
-      while (!part->ended) listen(*part, deadline - Clock::now());
+      while (!part->ended) listen(*part, deadline - requester_.now());
     }
   }
 
@@ -161,7 +162,8 @@ class Concert {
   }
 
   void change(ChangeAction action, const std::string& service) {
-    for (const Part& part : parts_) {
+    for (Part& part : parts_) {
+      if (part.silent) continue;  // it would hold up the others again
       if (part.plans(action, service)) tell(part, msg::ControlAction::CONTROL_PROCEED, service);
     }
   }

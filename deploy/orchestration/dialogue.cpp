@@ -42,8 +42,9 @@ void set_method(const msg::ControlReply& reply, ServiceConfig& service) {
 
 }  // namespace
 
-Dialogue::Dialogue(const Supervisor& supervisor, Requester& requester, std::function<bool()> pump)
-    : supervisor_(supervisor), requester_(requester), pump_(std::move(pump)) {}
+Dialogue::Dialogue(const SupervisedProcesses& processes, Requester& requester,
+                   std::function<bool()> pump)
+    : processes_(processes), requester_(requester), pump_(std::move(pump)) {}
 
 std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
                                                std::uint64_t incarnation,
@@ -60,12 +61,12 @@ std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
   request.incarnation(incarnation);
   // Only the first request to a process can get lost: before the endpoints are matched.
   const bool question = request.action() == msg::ControlAction::CONTROL_DESCRIBE;
-  const auto deadline = Clock::now() + (question ? milliseconds(3000) : answer_patience);
+  const auto deadline = now() + (question ? milliseconds(3000) : answer_patience);
   do {
     if (const auto reply = answer(request, question ? milliseconds(300) : answer_patience)) {
       return reply;
     }
-  } while (Clock::now() < deadline && !supervisor_.stopping());
+  } while (now() < deadline && !processes_.stopping());
   return std::nullopt;
 }
 
@@ -87,8 +88,8 @@ Deployment Dialogue::describe(const Deployment& deployment) {
   Deployment described = deployment;
   std::map<std::uint64_t, ServiceConfig*> asked;
   for (ServiceConfig& service : described.services) {
-    const auto key = supervisor_.key_of(label(service));
-    if (service.method.empty() || !key || !supervisor_.running(*key)) continue;
+    const auto key = processes_.key_of(label(service));
+    if (service.method.empty() || !key || !processes_.running(*key)) continue;
     msg::ControlRequest request;
     request.service(label(service));
     request.action(msg::ControlAction::CONTROL_DESCRIBE);
@@ -107,9 +108,9 @@ Deployment Dialogue::describe(const Deployment& deployment) {
 }
 
 bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds patience) {
-  const auto deadline = Clock::now() + patience;
+  const auto deadline = now() + patience;
   while (!condition()) {
-    if (Clock::now() >= deadline || !pump()) return false;
+    if (now() >= deadline || !pump()) return false;
   }
   return true;
 }

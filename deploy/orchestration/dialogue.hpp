@@ -10,7 +10,7 @@
 #include <string>
 
 #include "deploy/orchestration/requester.hpp"
-#include "deploy/orchestration/supervisor.hpp"
+#include "deploy/orchestration/supervised_processes.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
@@ -19,7 +19,7 @@ namespace quoin::deploy {
 class Dialogue {
  public:
   /// `pump` is what pump() does. Both others must outlive the object.
-  Dialogue(const Supervisor& supervisor, Requester& requester, std::function<bool()> pump);
+  Dialogue(const SupervisedProcesses& processes, Requester& requester, std::function<bool()> pump);
 
   /// Nothing when the process does not answer. Incarnation 0 stands for any process of the service.
   [[nodiscard]] std::optional<msg::ControlReply> ask(const std::string& service,
@@ -41,6 +41,7 @@ class Dialogue {
   /// parameters that were exchanged by request.
   [[nodiscard]] Deployment describe(const Deployment& deployment);
 
+  [[nodiscard]] Requester::Clock::time_point now() const { return requester_.now(); }
   /// Lets the processes be supervised for a moment; false when the deployment is to stop.
   bool pump() { return pump_(); }
   /// False after `patience`, or when the deployment is to stop.
@@ -50,7 +51,7 @@ class Dialogue {
   [[nodiscard]] std::optional<msg::ControlReply> answer(msg::ControlRequest& request,
                                                         std::chrono::milliseconds patience);
 
-  const Supervisor& supervisor_;
+  const SupervisedProcesses& processes_;
   Requester& requester_;
   std::function<bool()> pump_;
 };

@@ -16,21 +16,21 @@ namespace {
 constexpr std::size_t most_replies = 1024;  // that nobody has asked for
 }
 
-Requester::Requester(runtime::Participant& participant, const std::string& name_space)
+DdsRequester::DdsRequester(runtime::Participant& participant, const std::string& name_space)
     : name_("quoin_" + std::to_string(::getpid()) + "_" + std::to_string(runtime::now_ns())),
       writer_(participant, control_request_topic(name_space), runtime::QosPreset::control),
       reader_(participant, control_reply_topic(name_space), runtime::QosPreset::control) {
   wait_set_.add(reader_);
 }
 
-std::uint64_t Requester::send(msg::ControlRequest& request) {
+std::uint64_t DdsRequester::send(msg::ControlRequest& request) {
   request.requester(name_);
   request.request(++number_);
   (void)writer_.write(request);  // what was not written gets no answer
   return number_;
 }
 
-std::optional<msg::ControlReply> Requester::take(std::uint64_t number) {
+std::optional<msg::ControlReply> DdsRequester::take(std::uint64_t number) {
   msg::ControlReply reply;
   while (reader_.take(reply)) {
     if (reply.requester() == name_) replies_[reply.request()] = reply;
@@ -44,8 +44,8 @@ std::optional<msg::ControlReply> Requester::take(std::uint64_t number) {
 std::optional<msg::ControlReply> Requester::wait(std::uint64_t number, Clock::time_point deadline) {
   while (true) {
     if (auto reply = take(number)) return reply;
-    if (Clock::now() >= deadline) return std::nullopt;
-    wait_set_.wait(milliseconds(20));
+    if (now() >= deadline) return std::nullopt;
+    wait_for_any(milliseconds(20));
   }
 }
 
@@ -55,11 +55,11 @@ std::optional<msg::ControlReply> Requester::ask(msg::ControlRequest& request,
 }
 
 bool Requester::reach(const std::string& service, Clock::time_point deadline) {
-  while (Clock::now() < deadline) {
+  while (now() < deadline) {
     msg::ControlRequest question;
     question.service(service);
     question.action(msg::ControlAction::CONTROL_DESCRIBE);
-    if (ask(question, std::min(deadline, Clock::now() + milliseconds(200)))) return true;
+    if (ask(question, std::min(deadline, now() + milliseconds(200)))) return true;
   }
   return false;
 }

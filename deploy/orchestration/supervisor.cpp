@@ -21,7 +21,7 @@ std::string seconds_text(milliseconds time) {
 }  // namespace
 
 bool ProcessPlan::runs(const std::string& service) const {
-  return std::ranges::find(services, service) != services.end();
+  return name == service || std::ranges::find(services, service) != services.end();
 }
 
 Supervisor::Supervisor(std::vector<ProcessPlan> plans, Callbacks callbacks)
@@ -50,8 +50,7 @@ const Supervisor::Child& Supervisor::child(int key) const {
 const Supervisor::Child* Supervisor::find(const std::string& name) const {
   const Child* found = nullptr;
   for (const Child& candidate : children_) {
-    const bool meant = candidate.plan.name == name || candidate.plan.runs(name);
-    if (!meant || candidate.standing == Standing::trial) continue;
+    if (!candidate.plan.runs(name) || candidate.standing == Standing::trial) continue;
     if (found == nullptr || found->standing == Standing::retired) found = &candidate;
   }
   return found;

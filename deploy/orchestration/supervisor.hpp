@@ -3,8 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,37 +14,9 @@
 
 #include "deploy/orchestration/backoff.hpp"
 #include "deploy/orchestration/process.hpp"
+#include "deploy/orchestration/supervised_processes.hpp"
 
 namespace quoin::deploy {
-
-/// A process to keep alive.
-struct ProcessPlan {
-  std::string name;  ///< of the process
-  std::filesystem::path program;
-  std::vector<std::string> arguments;
-  int level = 0;  ///< distance from the source; level 0 is stopped first
-  bool source = false;
-  bool restart = true;                       ///< start again when it dies
-  std::chrono::milliseconds least_pause{0};  ///< before that
-  std::vector<std::string> again = {};       ///< more arguments, once it has been active
-  std::vector<std::string> services = {};    ///< labels of those that run in it
-
-  [[nodiscard]] bool runs(const std::string& service) const;
-};
-
-enum class ProcessPhase {
-  running,
-  pausing,   ///< died, will be started again
-  finished,  ///< ended in order
-  dead,      ///< died and stays dead
-};
-
-/// What is known of a supervised process.
-struct ProcessFigures {
-  ProcessPhase phase = ProcessPhase::running;
-  int process_id = 0;  ///< of the last process
-  std::uint64_t restarts = 0;
-};
 
 /// Starts processes, starts those again that die, and stops them level by level so that nothing in
 /// flight between them is lost. Single-threaded: everything happens inside `poll`.
@@ -54,7 +24,7 @@ struct ProcessFigures {
 /// Ends when all sources, if it has any, have ended (what they published is drained by stopping the
 /// levels behind them), when stopped, or when a process rejects its configuration before it was
 /// first active.
-class Supervisor {
+class Supervisor : public SupervisedProcesses {
  public:
   struct Callbacks {
     /// A line of a process's output.
@@ -77,34 +47,22 @@ class Supervisor {
   /// SIGKILL for all.
   void kill_all();
 
-  /// Starts one more process, on trial: when it dies it is not started again and nothing else
-  /// happens. Returns the key by which it is called. Throws std::system_error.
-  int add(ProcessPlan plan);
-  /// The end of the trial: from now on it is treated like all others, and started again by `plan`.
-  void adopt(int key, ProcessPlan plan);
-  /// Another way to start the service's process from the next time on.
-  void replan(ProcessPlan plan);
-  /// The process is about to end, with or without SIGTERM from here; it is not started again, and
-  /// killed when it takes long: five seconds for each of `services`.
-  void retire(int key, bool terminate, std::size_t services = 1);
-  /// SIGKILL.
-  void kill(int key);
-  [[nodiscard]] bool running(int key) const;
-  [[nodiscard]] int process_id(int key) const;
-  [[nodiscard]] const ProcessPlan& plan(int key) const { return child(key).plan; }
-  /// How a process on trial ended; nothing while it runs.
-  [[nodiscard]] std::optional<ProcessEnd> end_of_trial(int key) const;
-  /// The process that does the work of a service, or is called like that; nothing when there is
-  /// none.
-  [[nodiscard]] std::optional<int> key_of(const std::string& name) const;
+  int add(ProcessPlan plan) override;
+  void adopt(int key, ProcessPlan plan) override;
+  void replan(ProcessPlan plan) override;
+  void retire(int key, bool terminate, std::size_t services = 1) override;
+  void kill(int key) override;
+  [[nodiscard]] bool running(int key) const override;
+  [[nodiscard]] int process_id(int key) const override;
+  [[nodiscard]] const ProcessPlan& plan(int key) const override { return child(key).plan; }
+  [[nodiscard]] std::optional<ProcessEnd> end_of_trial(int key) const override;
+  [[nodiscard]] std::optional<int> key_of(const std::string& name) const override;
+  [[nodiscard]] ProcessFigures figures(const std::string& name) const override;
+  [[nodiscard]] bool ended() const override;
+  [[nodiscard]] bool stopping() const override { return stopping_; }
 
-  /// No process is left and none will be started.
-  [[nodiscard]] bool ended() const;
-  [[nodiscard]] bool stopping() const { return stopping_; }
   /// 0, or what went wrong: 2 configuration, 3 input of a source, 1 anything else.
   [[nodiscard]] int exit_code() const { return exit_code_; }
-  /// Of the process that does the work of the service, or did until the service was removed.
-  [[nodiscard]] ProcessFigures figures(const std::string& name) const;
   /// Whether that process is or was one of these.
   [[nodiscard]] bool started(int process_id) const { return started_.contains(process_id); }
 

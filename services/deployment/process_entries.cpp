@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "core/parameters/suggestion.hpp"
+#include "core/parameters/parameter.hpp"
 #include "services/deployment/service_entries.hpp"
 
 namespace quoin {

@@ -19,7 +19,6 @@
 #include <spdlog/spdlog.h>
 
 #include "core/parameters/parameter.hpp"
-#include "core/parameters/suggestion.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/process/log.hpp"
 #include "services/runtime/process/service.hpp"
