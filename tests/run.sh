@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Quoin authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds, and runs every test through CTest: the release build with everything,
-# then the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, and a short run of the fuzz targets.
-# The integration tests, which mostly wait, run beside the second build.
+# Installs what is missing, builds, and runs every test through CTest: the release build with everything, then all that
+# starts no processes under AddressSanitizer and UndefinedBehaviorSanitizer, what has threads under ThreadSanitizer, and
+# a short run of the fuzz targets; format and clang-tidy over the sources. What mostly waits runs beside what compiles.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -13,18 +13,21 @@ usage() {
   cat <<'TEXT'
 usage: tests/run.sh [--build-only] [--no-sanitizers] [--no-fuzzing]
   --build-only      install and build the release tree, run nothing
-  --no-sanitizers   leave out the second build with sanitizers
+  --no-sanitizers   leave out the builds with sanitizers
   --no-fuzzing      leave out the fuzz targets, which need clang++
+  --no-style        leave out format and clang-tidy
 TEXT
 }
 build_only=false
 sanitizers=true
 fuzzing=true
+style=true
 for argument in "$@"; do
   case $argument in
     --build-only) build_only=true ;;
     --no-sanitizers) sanitizers=false ;;
     --no-fuzzing) fuzzing=false ;;
+    --no-style) style=false ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -67,6 +70,11 @@ step "packages"
 deploy/install_packages.sh
 if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
+if $style && ! $build_only; then
+  step "format"
+  tests/style.sh format
+fi
+
 # Nothing that runs from here may leave anything there.
 export TMPDIR=$work/tmp
 mkdir "$TMPDIR"
@@ -84,14 +92,25 @@ in_background "integration tests" ctest --test-dir build --output-on-failure -L 
 if $sanitizers; then
   step "build with sanitizers"
   cmake --preset asan
-  nice cmake --build --preset asan -j "$jobs"  # gives way to what runs beside it
+  nice cmake --build --preset asan -j "$jobs" --target quick_tests  # gives way to what runs beside it
+  step "build with the thread sanitizer"
+  cmake --preset tsan
+  nice cmake --build --preset tsan -j "$jobs" --target thread_tests
+fi
+if $style; then
+  step "clang-tidy"
+  nice tests/style.sh tidy
 fi
 finish "integration tests"
 finish "soak"
 
 if $sanitizers; then
-  step "unit tests with sanitizers"
-  UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/asan --output-on-failure -L unit -j "$tests_at_once"
+  step "tests with sanitizers"
+  export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$root/tests/sanitizers/leak.supp
+  ctest --test-dir build/asan --output-on-failure -L 'unit|dds' -j "$tests_at_once"
+  step "tests with the thread sanitizer"
+  export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp halt_on_error=1"
+  ctest --test-dir build/tsan --output-on-failure -L threads -j "$tests_at_once"
 fi
 
 # Beside nothing that has deadlines of its own.

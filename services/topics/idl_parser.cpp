@@ -15,7 +15,7 @@ namespace quoin::topics {
 namespace {
 
 constexpr std::size_t deepest_declaration = 16;  // of modules, and of sequences
-constexpr std::size_t most_types = 10'000;   // fields included; a recording may come from anybody
+constexpr std::size_t most_types = 10'000;  // fields included; a recording may come from anybody
 
 // Annotations that change nothing of what is sent.
 constexpr std::array<std::string_view, 10> ignored_annotations{

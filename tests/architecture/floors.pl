@@ -42,7 +42,9 @@ my @floors = (
     [ 'deploy/evaluation/',              14 ],
     [ 'deploy/command/',                 15 ],
 );
-my $most_files = 110;    # that the main file of a service reaches
+# How many files the main file of a service may reach.
+my %most_files = ( 'services/line_fitting/main.cpp' => 110 );
+my $most_files_of_others = 120;
 
 sub floor_of {
     my ($file) = @_;
@@ -126,7 +128,8 @@ for my $start (sort keys %folders) {
 for my $main (sort grep { m{^services/[^/]+/main\.cpp$} } keys %includes) {
     my $count = keys %{ reach($main) };
     print "$main reaches $count files\n";
-    if ($count > $most_files) { print "  more than $most_files\n"; ++$violations; }
+    my $most = $most_files{$main} // $most_files_of_others;
+    if ($count > $most) { print "  more than $most\n"; ++$violations; }
 }
 
 print $violations ? "$violations violations\n" : "all floors kept\n";

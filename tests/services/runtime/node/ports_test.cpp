@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/node/ports.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/runtime/node/ports.hpp"
 #include "tests/services/runtime/node/stage.hpp"
 
 namespace quoin::runtime {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include "services/runtime/process/heartbeat.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -8,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "services/runtime/process/heartbeat.hpp"
 #include "tests/services/runtime/heap.hpp"
 
 namespace quoin::runtime {
