@@ -83,8 +83,9 @@ void Changeover::commit() {
   if (committed_) return;
   committed_ = true;
   for (const ProcessPlan& plan : plans_) {
-    const bool replaced = std::ranges::any_of(
-        plan.services, [&](const std::string& service) { return plan_.replaces(service); });
+    const bool replaced = std::ranges::any_of(plan_.changes, [&](const Change& change) {
+      return change.action == ChangeAction::replace && plan.runs(change.service);
+    });
     if (!replaced) world_.processes.replan(plan);
   }
 }

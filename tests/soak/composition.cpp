@@ -81,4 +81,30 @@ Scenario test_kinds() {
           .spared = {"front", "odo", "walls", "lines", "corners", "newest"}};
 }
 
+Scenario composed_stages() {
+  std::string services =
+      "  - {name: front, kind: simulated, parameters: {rate_hz: 20}}\n"
+      "  - {name: walls, kind: segmentation, input: front, method: iepf}\n";
+  std::vector<Swap> swaps;
+  for (const std::string fitter : {"utls", "wtls", "wctls"}) {
+    services += "  - {name: " + fitter + ", kind: line_fitting, input: walls, method: " + fitter +
+                "}\n  - {name: " + fitter + "_corners, kind: corner_estimation, input: " + fitter +
+                "}\n";
+    for (const MethodInfo& method : Fitters::descriptions()) swaps.push_back({fitter, method.name});
+  }
+  return {
+      .tool = "quoin",
+      .compositions = {services + "processes:\n  stages: [walls, utls, wtls, wctls, utls_corners, "
+                                  "wtls_corners, wctls_corners]\n",
+                       services,
+                       services +
+                           "processes:\n  first: [front, walls, utls, utls_corners]\n  second: "
+                           "[wtls, wctls, wtls_corners, wctls_corners]\n"},
+      .listened = {"utls_corners", "wctls_corners"},
+      .visited = "wctls_corners",
+      .swaps = swaps,
+      .spared = {"front", "walls", "utls", "wtls", "wctls", "utls_corners", "wtls_corners",
+                 "wctls_corners"}};
+}
+
 }  // namespace quoin::soak

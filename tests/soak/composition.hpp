@@ -36,4 +36,7 @@ struct Scenario {
 /// compositions differ in QoS, so that all is replaced, and in what the joins read.
 [[nodiscard]] Scenario test_kinds();
 
+/// The services of side_by_side.yaml, in one process, in several, and each in its own.
+[[nodiscard]] Scenario composed_stages();
+
 }  // namespace quoin::soak

@@ -145,11 +145,14 @@ struct Options {
   std::uint64_t seed = 0;
   bool verbose = false;
   bool kinds = false;
+  bool composed = false;
 };
 
 ordered_json run(const Options& options, Verdict& verdict) {
   const auto shared_memory = tests::shared_memory_files();
-  const soak::Scenario scenario = options.kinds ? soak::test_kinds() : soak::shipped_kinds();
+  const soak::Scenario scenario = options.kinds      ? soak::test_kinds()
+                                  : options.composed ? soak::composed_stages()
+                                                     : soak::shipped_kinds();
   const tests::TestDeployment deployment(scenario.compositions.front(), "", scenario.tool);
   tests::Process up = deployment.quoin({"up", "FILE", "--json"});
   soak::Memory memory;
@@ -227,6 +230,8 @@ int main(int argc, char** argv) {
   app.add_option("--minutes", options.minutes, "How long")->capture_default_str();
   app.add_option("--seed", options.seed, "Of the schedule; random unless given, and printed");
   app.add_flag("--kinds", options.kinds, "With the kinds of tests/kinds, beside shipped ones");
+  app.add_flag("--composed", options.composed,
+               "With the stages of side_by_side.yaml in one process, or several");
   app.add_flag("--verbose", options.verbose, "Print the log of the deployment");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { interrupted = 1; });

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -130,6 +132,11 @@ std::vector<const ServiceConfig*> services_to_run(const Deployment& deployment,
 // once on a busy machine many seconds.
 double default_wait(const Deployment& deployment) { return deployment.security ? 30.0 : 10.0; }
 
+using Clock = std::chrono::steady_clock;
+
+// From SIGTERM to the end of the last service; whoever supervises the process kills it sooner.
+constexpr std::chrono::seconds longest_end{20};
+
 /// Runs services in threads of their own and ends them in the order of the deployment.
 class Runner {
  public:
@@ -206,9 +213,22 @@ class Runner {
       lock.unlock();
       for (Entry* entry : to_stop) entry->service->stop.request();
       lock.lock();
-      changed_.wait(lock, [this] { return something_happened_; });
+      if (signal_.requested() && give_up_ == Clock::time_point::max()) {
+        give_up_ = Clock::now() + longest_end;
+      }
+      if (!changed_.wait_until(lock, give_up_, [this] { return something_happened_; })) abandon();
       something_happened_ = false;
     }
+  }
+
+  /// Ends the process with services that cannot be ended.
+  [[noreturn]] void abandon() const {
+    for (const auto& entry : entries_) {
+      if (entry->ended) continue;
+      spdlog::error("service '{}' has not ended within {} s; leaving it",
+                    label(entry->service->config), longest_end.count());
+    }
+    std::_Exit(exit_failure);
   }
 
   /// When the process is to stop those that no running one comes before; else those of which all
@@ -247,6 +267,7 @@ class Runner {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool something_happened_ = false;
+  Clock::time_point give_up_ = Clock::time_point::max();
 };
 
 int run(const Options& options, const std::vector<Component>& components) {

@@ -107,6 +107,29 @@ services:
 network: {interfaces: [eth0], discovery: multicast}
 )";
 
+TEST(ExportPlan, ServicesOfOneProcessAreOneUnit) {
+  const Deployment read =
+      deployment(std::string(robot) + "processes: {perception: [walls, \"on\"], sensor: [rear]}\n");
+  const ExportPlan plan = plan_export(read, "");
+  ASSERT_THAT(plan.processes, SizeIs(6));
+  for (const ExportedProcess& process : plan.processes) {
+    SCOPED_TRACE(process.id);
+    if (process.id == "front") {
+      EXPECT_THAT(process.after, ElementsAre("perception", "device"));
+    }
+    if (process.id == "perception") {
+      EXPECT_EQ(process.program, "quoin-process");
+      EXPECT_EQ(process.kind, "walls, on");
+      EXPECT_THAT(process.after, ElementsAre("a"));
+      EXPECT_THAT(process.arguments("/robot.yaml"),
+                  ElementsAre("--deployment", "/robot.yaml", "--process", "perception"));
+    }
+    if (process.id == "sensor") {
+      EXPECT_TRUE(process.own_network);
+    }
+  }
+}
+
 TEST(ExportPlan, TakesTheShareOfAHost) {
   const Deployment read = deployment(two_hosts);
   const ExportPlan plan = plan_export(read, "compute");

@@ -15,6 +15,7 @@
 namespace quoin::deploy {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
@@ -25,10 +26,14 @@ Deployment chain() {
                      service("map", mapper, {{"lines", "fit"}, {"odometry", "front"}}, "plain")});
 }
 
-/// front -> fit@2, fit@1: the stronger is heard.
+const KindInfo camera{
+    .name = "camera", .description = "", .program = "launch_test", .outputs = {{"scan"}}};
+
+/// camera -> fit@2, fit@1: the stronger is heard.
 Deployment standby() {
-  Deployment two = deployment({service("front", lidar), service("fit", fitter, {{"scan", "front"}}),
-                               service("fit", fitter, {{"scan", "front"}})});
+  Deployment two =
+      deployment({service("camera", camera), service("fit", fitter, {{"scan", "camera"}}),
+                  service("fit", fitter, {{"scan", "camera"}})});
   two.services[1].strength = 2;
   two.services[2].strength = 1;
   return two;
@@ -203,19 +208,19 @@ TEST_F(Record, InstancesOfOneNameAreToldApartByTheirProcesses) {
   DeploymentRecord& record = start(standby());
   record.receive(heartbeat("fit@2", 12, 3));
   record.receive(heartbeat("fit@1", 32, 3));
-  Pipeline by_the_strong({"front", "fit"});
+  Pipeline by_the_strong({"camera", "fit"});
   for (int i = 0; i < 5; ++i) record.receive(0, by_the_strong.scan());
   EXPECT_EQ(figures("fit@2").report.published, 5U);
   EXPECT_EQ(figures("fit@1").report.published, 3U);
   by_the_strong.restart(1, 32);  // now by the weak one
   record.receive(0, by_the_strong.scan());
   EXPECT_EQ(figures("fit@2").report.published, 5U);
-  EXPECT_THAT(names(), ElementsAre("front", "fit@2", "fit@1"));
+  EXPECT_THAT(names(), ElementsAre("camera", "fit@2", "fit@1"));
 }
 
 TEST_F(Record, AProcessOfOneOfSeveralInstancesIsNobodysBeforeItsHeartbeat) {
   DeploymentRecord& record = start(standby());
-  Pipeline pipeline({"front", "fit"});
+  Pipeline pipeline({"camera", "fit"});
   record.receive(0, pipeline.scan());
   EXPECT_EQ(figures("fit@2").report.published, 0U);
   EXPECT_EQ(figures("fit@1").report.published, 0U);

@@ -32,8 +32,8 @@ class Pipeline {
   msg::Header scan(std::size_t passed = all) {
     msg::Header header;
     topics::set_origin(header, stages_[0].service, stages_[0].incarnation, next_);
-    std::int64_t published = static_cast<std::int64_t>(next_) * 100'000'000;
     ++next_;
+    std::int64_t published = time_ += 100'000'000;
     for (std::size_t i = 0; i < std::min(passed, stages_.size()); ++i, published += delay) {
       msg::StageTrace& trace = header.trace().emplace_back();
       trace.service(stages_[i].service);
@@ -59,6 +59,7 @@ class Pipeline {
   };
   std::vector<Stage> stages_;
   std::uint64_t next_ = 0;
+  std::int64_t time_ = 0;  // [ns]
 };
 
 /// A heartbeat of the process that started at `incarnation`, whose id is that and 100.

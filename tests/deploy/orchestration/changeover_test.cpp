@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "deploy/orchestration/cue.hpp"
 #include "services/deployment/graph.hpp"
 #include "tests/deploy/observation/pipeline.hpp"
 #include "tests/deploy/orchestration/fakes.hpp"
@@ -46,14 +47,14 @@ class ChangeoverTest : public testing::Test {
   Changeover& begin(const Deployment& running, const Deployment& wanted) {
     running_ = running;
     wanted_ = wanted;
-    for (const ServiceConfig& each : running_.services) {
-      if (each.has_process()) processes_.insert(process_plan(running_, each));
+    for (const ProcessConfig& each : processes_of(running_)) {
+      processes_.insert(process_plan(running_, each));
     }
     record_ = std::make_unique<DeploymentRecord>(running_, "", [](auto, const auto&) {});
     for (const auto& [key, process] : processes_.table) hear(key, msg::STATE_ACTIVE);
     plan_ = plan_changes(running_, wanted_);
-    for (const ServiceConfig& each : wanted_.services) {
-      if (each.has_process()) plans_.push_back(process_plan(wanted_, each));
+    for (const ProcessConfig& each : processes_of(wanted_)) {
+      plans_.push_back(process_plan(wanted_, each));
     }
     processes_.log = [this](const std::string& what) {
       if (!what.starts_with("replan ")) log_.push_back(what);
@@ -71,20 +72,24 @@ class ChangeoverTest : public testing::Test {
     return *changeover_;
   }
 
-  static ProcessPlan process_plan(const Deployment& deployment, const ServiceConfig& config) {
-    return {.name = label(config),
-            .program = "quoin-" + config.kind,
-            .arguments = {"--qos", config.outputs.empty() ? "" : config.outputs.front().qos,
-                          "--observers", "1"},
-            .level = Graph(deployment).level(config)};
+  static ProcessPlan process_plan(const Deployment& deployment, const ProcessConfig& process) {
+    const ServiceConfig& first = *process.services.front();
+    ProcessPlan plan{.name = process.name,
+                     .program = "quoin-" + first.kind,
+                     .arguments = {"--qos", first.outputs.empty() ? "" : first.outputs.front().qos,
+                                   "--observers", "1"},
+                     .level = Graph(deployment).level(process)};
+    for (const ServiceConfig* each : process.services) plan.services.push_back(label(*each));
+    return plan;
   }
 
   void hear(int key, msg::ServiceState state) {
-    msg::ServiceStatus status =
-        heartbeat(processes_.table.at(key).plan.name, incarnation(key), 0, state);
-    status.pid(static_cast<std::uint32_t>(processes_.id(key)));
-    status.detail(details_[status.service()]);
-    record_->receive(status);
+    for (const std::string& service : processes_.table.at(key).plan.services) {
+      msg::ServiceStatus status = heartbeat(service, incarnation(key), 0, state);
+      status.pid(static_cast<std::uint32_t>(processes_.id(key)));
+      status.detail(details_[status.service()]);
+      record_->receive(status);
+    }
   }
   static std::uint64_t incarnation(int key) { return static_cast<std::uint64_t>(50 + key); }
 
@@ -139,9 +144,18 @@ class ChangeoverTest : public testing::Test {
       reply = {};
       reply.detail("cannot");
     } else if (request.action() == ControlAction::CONTROL_HAND_OVER) {
-      processes_.table.at(static_cast<int>(request.incarnation()) - 50).running = false;
+      leave(static_cast<int>(request.incarnation()) - 50);
+    } else if (request.action() == ControlAction::CONTROL_STOP) {
+      log_.push_back("ask " + name + " to stop");
+      leave(static_cast<int>(request.incarnation()) - 50);
     }
     requester_.reply(request.request(), reply);
+  }
+
+  /// A process ends when all of its services have.
+  void leave(int key) {
+    FakeProcesses::Process& process = processes_.table.at(key);
+    process.running = ++ended_[key] < process.plan.services.size();
   }
 
   [[nodiscard]] const msg::ControlRequest& request(ControlAction action,
@@ -178,6 +192,7 @@ class ChangeoverTest : public testing::Test {
   std::unique_ptr<Changeover> changeover_;
   std::vector<std::string> log_;         // all but the next
   std::vector<std::string> everything_;  // with other plans for processes that go on
+  std::map<int, std::size_t> ended_;     // services, by key
   std::map<std::string, std::string> lines_;
   std::map<std::string, std::string> details_;
   std::set<std::string> dying_;
@@ -255,16 +270,77 @@ TEST_F(ChangeoverTest, ReplacementsTakeOverFromTheSourcesOn) {
   EXPECT_THAT(log_, ElementsAre("start fit", "start map"));
   log_.clear();
   changeover.finish();
-  EXPECT_THAT(log_,
-              ElementsAre("hold fit", "retire fit", "hand over fit", "adopt fit", "take over fit",
-                          "hold map", "retire map", "hand over map", "adopt map", "take over map"));
+  EXPECT_THAT(log_, ElementsAre("hold fit", "hold map", "retire fit", "hand over fit", "adopt fit",
+                                "take over fit", "retire map", "hand over map", "adopt map",
+                                "take over map"));
+}
+
+Deployment in_process(Deployment deployment, const std::set<std::string>& names) {
+  for (ServiceConfig& each : deployment.services) {
+    if (names.contains(each.name)) each.process = "both";
+  }
+  return deployment;
+}
+
+TEST_F(ChangeoverTest, ServicesMoveIntoOneProcessOneAfterTheOther) {
+  Changeover& changeover = begin(chain(), in_process(chain(), {"fit", "map"}));
+  changeover.prepare();
+  EXPECT_THAT(log_, ElementsAre("start both")) << "one process for both";
+  log_.clear();
+  changeover.finish();
+  EXPECT_THAT(log_, ElementsAre("hold fit", "hold map", "retire fit", "hand over fit", "adopt both",
+                                "take over fit", "retire map", "hand over map", "adopt both",
+                                "take over map"));
+  EXPECT_THAT(running_processes(), ElementsAre("front", "both"));
+}
+
+TEST_F(ChangeoverTest, AProcessGoesWhenTheLastOfItsServicesHasLeft) {
+  Changeover& changeover = begin(in_process(chain(), {"fit", "map"}), chain());
+  changeover.prepare();
+  EXPECT_THAT(log_, ElementsAre("start fit", "start map"));
+  log_.clear();
+  changeover.finish();
+  EXPECT_THAT(log_, ElementsAre("hold fit", "hold map", "retire both", "hand over fit", "adopt fit",
+                                "take over fit", "retire both", "hand over map", "adopt map",
+                                "take over map"));
+  EXPECT_THAT(running_processes(), ElementsAre("front", "fit", "map"));
+}
+
+TEST_F(ChangeoverTest, AServiceThatIsRemovedFromAProcessIsAskedToStop) {
+  Deployment wanted = chain();
+  wanted.services.pop_back();
+  Changeover& changeover = begin(in_process(chain(), {"fit", "map"}), in_process(wanted, {"fit"}));
+  changeover.prepare();
+  changeover.finish();
+  EXPECT_THAT(log_, ElementsAre("start both", "hold fit", "retire both", "hand over fit",
+                                "adopt both", "take over fit", "ask map to stop"));
+  EXPECT_THAT(running_processes(), ElementsAre("front", "both"));
+}
+
+TEST_F(ChangeoverTest, AProcessWithoutAServiceLeftIsStopped) {
+  Deployment wanted = chain();
+  wanted.services.resize(1);
+  Changeover& changeover = begin(in_process(chain(), {"fit", "map"}), wanted);
+  changeover.prepare();
+  changeover.finish();
+  EXPECT_THAT(log_, ElementsAre("stop both"));
+  EXPECT_THAT(running_processes(), ElementsAre("front"));
+}
+
+TEST_F(ChangeoverTest, AProcessThatIsNotReadyIsStoppedOnce) {
+  dying_ = {"both"};
+  begin(chain(), in_process(chain(), {"fit", "map"}));
+  EXPECT_THAT(failure_of_prepare(), HasSubstr("new process of service 'fit' ended"));
+  EXPECT_THAT(log_, ElementsAre("start both", "stop both"));
+  EXPECT_THAT(running_processes(), ElementsAre("front", "fit", "map"));
 }
 
 TEST_F(ChangeoverTest, AReplacementWaitsForNewReadersBesideThoseThatGo) {
   Changeover& changeover = begin(chain(), with_qos(chain(), "fit"));
   changeover.prepare();
-  EXPECT_THAT(processes_.table.at(4).plan.arguments,
-              ElementsAre("--qos", "lossless", "--observers", "2", "--held"))
+  EXPECT_THAT(
+      processes_.table.at(4).plan.arguments,
+      ElementsAre("--qos", "lossless", "--observers", "1", "--observers", "fit=1", "--held"))
       << "the map that goes reads the same topic";
 }
 
@@ -272,7 +348,7 @@ TEST_F(ChangeoverTest, ReadersThatGoOnAnotherHostCountToo) {
   elsewhere_.changes.push_back({ChangeAction::stop, "map", ""});
   Changeover& changeover = begin(chain(), with_qos(chain(), "fit"));
   changeover.prepare();
-  EXPECT_EQ(processes_.table.at(4).plan.arguments.at(3), "3");
+  EXPECT_EQ(processes_.table.at(4).plan.arguments.at(5), "fit=2");
 }
 
 TEST_F(ChangeoverTest, NewReadersBeginBeforeTheSourceTheyRead) {
@@ -438,9 +514,9 @@ TEST_F(ChangeoverTest, AProcessThatFailsInTheMiddleDoesNotHoldUpTheOthers) {
   changeover.prepare();
   log_.clear();
   changeover.finish();
-  EXPECT_THAT(log_, ElementsAre("hold fit", "retire fit", "hand over fit", "adopt fit",
-                                "take over fit", "kill fit", "hold map", "retire map",
-                                "hand over map", "adopt map", "take over map"))
+  EXPECT_THAT(log_, ElementsAre("hold fit", "hold map", "retire fit", "hand over fit", "adopt fit",
+                                "take over fit", "kill fit", "retire map", "hand over map",
+                                "adopt map", "take over map"))
       << "the killed process is started again";
 }
 

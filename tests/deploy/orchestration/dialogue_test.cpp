@@ -17,7 +17,7 @@ using testing::HasSubstr;
 /// A service "map" with process 1.
 class DialogueTest : public testing::Test {
  protected:
-  DialogueTest() { processes_.insert({.name = "map"}); }
+  DialogueTest() { processes_.insert("map"); }
 
   [[nodiscard]] static ServiceConfig map(const std::string& method) {
     return service("map", mapper, {{"lines", "fit"}, {"odometry", "front"}}, method);

@@ -80,8 +80,13 @@ class FakeProcesses : public SupervisedProcesses {
 
   /// A process that was there before.
   int insert(const ProcessPlan& plan) {
-    table[++last_key_] = {plan};
+    table[++last_key_].plan = plan;
     return last_key_;
+  }
+  int insert(const std::string& service) {
+    ProcessPlan plan;
+    plan.name = service;
+    return insert(plan);
   }
   [[nodiscard]] int id(int key) const { return 1000 + key; }
 
@@ -102,7 +107,7 @@ class FakeProcesses : public SupervisedProcesses {
       if (process.plan.name == plan.name && !process.trial && !process.retired) process.plan = plan;
     }
   }
-  void retire(int key, bool terminate) override {
+  void retire(int key, bool terminate, std::size_t) override {
     Process& process = table.at(key);
     log((terminate ? "stop " : "retire ") + process.plan.name);
     process.retired = true;
@@ -120,7 +125,7 @@ class FakeProcesses : public SupervisedProcesses {
   }
   [[nodiscard]] std::optional<int> key_of(const std::string& name) const override {
     for (const auto& [key, process] : table) {
-      if (process.plan.name == name && !process.trial && !process.retired) return key;
+      if (process.plan.runs(name) && !process.trial && !process.retired) return key;
     }
     return std::nullopt;
   }

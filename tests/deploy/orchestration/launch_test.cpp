@@ -7,9 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "deploy/kinds/kinds.hpp"
 #include "tests/deploy/orchestration/kind_fixtures.hpp"
 
 namespace quoin::deploy {
+
+const char* process_program() { return "launch_test"; }  // which is there
+
 namespace {
 
 using testing::ElementsAre;
@@ -63,8 +67,9 @@ TEST(Launch, ADeviceOutlivesAllOthers) {
 TEST(Launch, ObserversOutsideAreWaitedFor) {
   const auto all = process_plans(
       robot(), "", [](const ServiceConfig& config) { return config.name == "map" ? 2 : 0; });
-  EXPECT_THAT(named(all, "map").arguments, ElementsAre("--service", "map", "--deployment",
-                                                       "/robots/robot.yaml", "--observers", "2"));
+  EXPECT_THAT(named(all, "map").arguments,
+              ElementsAre("--service", "map", "--deployment", "/robots/robot.yaml", "--observers",
+                          "map=2"));
   EXPECT_EQ(named(all, "fit").arguments.size(), 4U);
 }
 
@@ -100,6 +105,25 @@ TEST(Launch, InstancesAreStartedUnderTheirLabels) {
   standby.services[1].strength = 2;
   const auto all = plans(standby);
   EXPECT_EQ(named(all, "fit@2").arguments.at(1), "fit@2");
+}
+
+TEST(Launch, ServicesOfOneProcessAreStartedByOneProgram) {
+  Deployment composed = robot();
+  for (ServiceConfig& each : composed.services) {
+    if (each.name == "fit" || each.name == "map") each.process = "perception";
+  }
+  const auto all = process_plans(
+      composed, "", [](const ServiceConfig& config) { return config.name == "map" ? 1 : 0; });
+  ASSERT_EQ(all.size(), 3U);
+  const ProcessPlan& perception = named(all, "perception");
+  EXPECT_THAT(perception.services, ElementsAre("fit", "map"));
+  EXPECT_EQ(perception.program, program_folder() / process_program());
+  EXPECT_EQ(perception.level, 1) << "of the first of them";
+  EXPECT_THAT(perception.arguments, ElementsAre("--process", "perception", "--deployment",
+                                                "/robots/robot.yaml", "--observers", "map=1"));
+  EXPECT_FALSE(perception.source);
+  EXPECT_TRUE(perception.runs("map"));
+  EXPECT_FALSE(perception.runs("front"));
 }
 
 TEST(Launch, AMissingProgramIsNamedBeforeAnythingRuns) {

@@ -156,5 +156,27 @@ TEST(Plan, CountsInstancesAndHostsApart) {
               ElementsAre(HasSubstr("strength and lease of service 'fit' cannot be changed")));
 }
 
+TEST(Plan, AProcessOfSeveralServicesIsReplacedAsAWhole) {
+  const std::string together = chain + "processes: {perception: [walls, lines]}\n";
+  EXPECT_THAT(plan(chain, together),
+              ElementsAre("keep front", "replace walls: process its own -> perception",
+                          "replace lines: process its own -> perception"));
+  EXPECT_THAT(plan(together, together), ElementsAre("keep front", "keep walls", "keep lines"));
+  const std::string swapped = std::string(front) + walls +
+                              "  - {name: lines, kind: line_fitting, input: walls, method: utls}\n"
+                              "processes: {perception: [walls, lines]}\n";
+  EXPECT_THAT(plan(together, swapped),
+              ElementsAre("keep front", "keep walls", "swap lines: method wctls -> utls"));
+  const std::string more = chain +
+                           "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n"
+                           "processes: {perception: [walls, lines, utls]}\n";
+  EXPECT_THAT(plan(together, more),
+              ElementsAre("keep front", "replace walls: with its process perception",
+                          "replace lines: with its process perception", HasSubstr("start utls")));
+  EXPECT_THAT(
+      plan(together, std::string(front) + walls + "processes: {perception: [walls]}\n"),
+      ElementsAre("keep front", "replace walls: with its process perception", "stop lines"));
+}
+
 }  // namespace
 }  // namespace quoin::deploy

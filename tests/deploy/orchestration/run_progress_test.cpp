@@ -71,7 +71,7 @@ class RunFigures : public testing::Test {
   const Deployment deployment_ = deployment({service("front", lidar)});
   DeploymentRecord record_{deployment_, "", [](std::size_t, const Connection&) {}};
   FakeProcesses processes_;
-  int key_ = processes_.insert({.name = "front"});
+  int key_ = processes_.insert("front");
 };
 
 TEST_F(RunFigures, AProcessThatHasReportedNothingIsStarting) {

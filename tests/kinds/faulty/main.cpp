@@ -20,7 +20,8 @@ runtime::Method make(const std::string&, const ParameterSettings& settings) {
     if (parameters.throw_every > 0 && *count % parameters.throw_every == 0) {
       throw std::runtime_error("this is one too many");
     }
-    while (parameters.hang_at == *count) std::this_thread::sleep_for(std::chrono::seconds(1));
+    // Longer than a heartbeat tolerates.
+    if (parameters.hang_at == *count) std::this_thread::sleep_for(std::chrono::seconds(14));
     work.output<msg::Corners>().corners(work.input<msg::Corners>().corners());
   }};
 }
