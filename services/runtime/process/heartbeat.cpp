@@ -39,7 +39,9 @@ Heartbeat::Heartbeat(Participant& participant, std::string_view name_space)
     : writer_(participant, status_topic(name_space), QosPreset::state),
       supervisor_([this](auto now, auto allowance) { return alive(now, allowance); }) {}
 
-Heartbeat::~Heartbeat() {
+Heartbeat::~Heartbeat() { stop(); }
+
+void Heartbeat::stop() {
   for (const Entry& entry : entries_) entry.record->on_change(nullptr);
   {
     const std::lock_guard lock(mutex_);
@@ -47,6 +49,8 @@ Heartbeat::~Heartbeat() {
     changed_.notify_all();
   }
   if (thread_.joinable()) thread_.join();
+  supervisor_.stop();
+  entries_.clear();
 }
 
 void Heartbeat::add(ServiceRecord& record, const Pulse& pulse) {

@@ -51,9 +51,11 @@ class Heartbeat {
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
 
-  /// Before start(). Both outlive this object.
+  /// Before start(). Both are there until stop() has returned.
   void add(ServiceRecord& record, const Pulse& pulse);
   void start();
+  /// Nothing is published any more.
+  void stop();
   /// The end of the process has begun: what is in flight is processed.
   void stopping() { supervisor_.stopping(); }
   /// The last heartbeat of a service, acknowledged by those who listen or given up after half a

@@ -141,6 +141,9 @@ constexpr std::chrono::seconds longest_end{20};
 class Runner {
  public:
   Runner(StopSignal& signal, Process& process) : signal_(signal), process_(process) {}
+  ~Runner() { process_.heartbeat.stop(); }  // before its services go
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
 
   void add(const ServiceConfig& config, std::size_t observers, Component::Body body) {
     auto entry = std::make_unique<Entry>();

@@ -10,7 +10,9 @@ namespace quoin::runtime {
 
 SupervisorLink::SupervisorLink(Alive alive) : alive_(std::move(alive)) {}
 
-SupervisorLink::~SupervisorLink() {
+SupervisorLink::~SupervisorLink() { stop(); }
+
+void SupervisorLink::stop() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;

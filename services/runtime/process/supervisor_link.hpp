@@ -31,6 +31,8 @@ class SupervisorLink {
   /// One line for who asks how the service is.
   void status(const std::string& text) const;
   void stopping();
+  /// No more signs of life.
+  void stop();
 
  private:
   void watch(std::chrono::microseconds period);
