@@ -197,13 +197,14 @@ TEST(Composed, AServiceCanBeAddedToAProcessAndTakenOutOfTheDeployment) {
 }
 
 TEST(Composed, AProcessHasOneIdentityThatMayDoWhatItsServicesDo) {
-  TestRun run(chain + in_one_process, "qos: lossless\nsecurity: {keys: keys}\n");
-  tests::make_keys(run.deployment());
+  const TestDeployment deployment(chain + in_one_process, "qos: lossless\nsecurity: {keys: keys}\n",
+                                  "quoin_test_tool");
+  tests::make_keys(deployment);
   const std::filesystem::path identities =
-      run.deployment().deployment().security->directory / "identities";
+      deployment.deployment().security->directory / "identities";
   EXPECT_TRUE(std::filesystem::exists(identities / "perception"));
   EXPECT_FALSE(std::filesystem::exists(identities / "walls"));
-  Process up = run.tool({"up", "FILE", "--json", "--duration", "3"});
+  Process up = deployment.quoin({"up", "FILE", "--json", "--duration", "3"});
   ASSERT_EQ(up.wait(60s), 0) << up.errors();
   const json figures = json::parse(up.output());
   EXPECT_GT(figures["scans_published"], 50);
