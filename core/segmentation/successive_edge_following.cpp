@@ -10,7 +10,7 @@ namespace quoin {
 namespace {
 
 // Two ranges have a slope, but it is all noise.
-constexpr std::size_t fewest_to_predict = 5;
+constexpr std::size_t fewest_to_extrapolate = 5;
 
 /// Adds the terms of point `i` with the weight 1 / range^2, or takes them away when `sign` is -1.
 void add(const PointsView& points, std::size_t i, double sign, Moments& sums) {
@@ -54,7 +54,7 @@ std::size_t SuccessiveEdgeFollowing::follow(const PointsView& points, std::size_
   std::size_t oldest = begin;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t count = i - oldest;
-    if (count >= fewest_to_predict) {
+    if (count >= fewest_to_extrapolate) {
       const auto line = solve_algebraic(sums);
       if (line && is_edge(points, i, line->x, count, builder_.tolerance())) return i;
     }

@@ -92,16 +92,16 @@ class Companion {
 /// Nothing when the scan passed by, nothing came for too long, or a signal came; says why.
 std::optional<Drawing> wait_for_drawing(const DrawOptions& options, ScanJoin& join,
                                         Companion& companion, Signals& signals) {
-  const auto patience =
+  const auto timeout =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.wait));
-  auto deadline = Clock::now() + patience;
+  auto deadline = Clock::now() + timeout;
   std::optional<std::uint64_t> newest;
   bool alive = true;
   while (signals.take() == 0) {
     if (auto drawing = join.poll(milliseconds(100))) return drawing;
     if (join.newest() != newest) {
       newest = join.newest();
-      deadline = Clock::now() + patience;
+      deadline = Clock::now() + timeout;
     }
     // Parts of one scan arrive a little apart; 64 scans later it is not coming any more.
     if (options.scan && newest && *newest > *options.scan + 64) {

@@ -27,7 +27,7 @@ ApplyRequest apply_request(const msg::ControlRequest& request) {
   result.dry_run = request.dry_run();
   if (std::isfinite(request.wait())) {
     const std::chrono::duration<double> wait(std::clamp(request.wait(), 0.1, 600.0));
-    result.patience = std::chrono::duration_cast<std::chrono::milliseconds>(wait);
+    result.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(wait);
   }
   return result;
 }
@@ -88,7 +88,9 @@ bool ApplyRequests::withdrawn() const {
   return cue_ && cue_->action() == msg::ControlAction::CONTROL_WITHDRAW;
 }
 
-std::optional<msg::ControlRequest> ApplyRequests::take_cue() { return std::exchange(cue_, {}); }
+std::optional<msg::ControlRequest> ApplyRequests::take_instruction() {
+  return std::exchange(cue_, {});
+}
 
 void ApplyRequests::reply(const msg::ControlRequest& request, msg::ControlReply reply) {
   reply.service(request.service());

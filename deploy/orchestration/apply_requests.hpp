@@ -25,10 +25,10 @@ class ApplyRequests {
   [[nodiscard]] std::optional<msg::ControlRequest> take(const std::string& file);
   /// Answers all that came: `current` is being carried out. Cues from its requester are kept.
   void attend(const msg::ControlRequest* current);
-  /// Whether the cue that came is to withdraw.
+  /// Whether the instruction that came is to withdraw.
   [[nodiscard]] bool withdrawn() const;
-  /// The next cue for who is ready, and not taken yet.
-  [[nodiscard]] std::optional<msg::ControlRequest> take_cue();
+  /// The next instruction for who is ready, and not taken yet.
+  [[nodiscard]] std::optional<msg::ControlRequest> take_instruction();
   /// Fills in what every answer has.
   void reply(const msg::ControlRequest& request, msg::ControlReply reply);
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "deploy/orchestration/cue.hpp"
+#include "deploy/orchestration/instruction.hpp"
 #include "services/deployment/graph.hpp"
 
 namespace quoin::deploy {
@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // A scan that was on its way when its reader was matched may be missed; the next one is not.
-constexpr seconds first_scan_patience{2};
+constexpr seconds first_scan_timeout{2};
 
 /// Whether a new process can wait, held, until the one before leaves its work to it.
 bool can_be_held(const ServiceConfig& service) {
@@ -57,19 +57,19 @@ std::string in_seconds(milliseconds time) {
 
 Changeover::Changeover(World world, const Deployment& running, const Deployment& wanted,
                        const Plan& plan, const Plan& elsewhere,
-                       const std::vector<ProcessPlan>& plans, milliseconds patience)
+                       const std::vector<ProcessPlan>& plans, milliseconds timeout)
     : world_(std::move(world)),
       running_(running),
       wanted_(wanted),
       plan_(plan),
       elsewhere_(elsewhere),
       plans_(plans),
-      patience_(patience) {}
+      timeout_(timeout) {}
 
 void Changeover::prepare() {
   try {
     world_.record.add(wanted_);
-    start_newcomers();
+    start_trials();
     wait_until_ready();
     swap_methods();
   } catch (const std::exception&) {
@@ -101,26 +101,26 @@ void Changeover::change(const std::string& service) {
     return;
   }
   if (change->action == ChangeAction::replace) hold_all();
-  const auto newcomer =
-      std::find_if(newcomers_.begin(), newcomers_.end(),
-                   [&](const Newcomer& candidate) { return candidate.change == &*change; });
-  if (newcomer == newcomers_.end()) return;
-  change->action == ChangeAction::start ? begin(*newcomer) : take_over(*newcomer);
+  const auto trial = std::find_if(trials_.begin(), trials_.end(), [&](const Trial& candidate) {
+    return candidate.change == &*change;
+  });
+  if (trial == trials_.end()) return;
+  change->action == ChangeAction::start ? begin(*trial) : take_over(*trial);
 }
 
 void Changeover::finish() {
   commit();
   // Whoever reads is at work before the new source it reads begins.
-  for (auto newcomer = newcomers_.rbegin(); newcomer != newcomers_.rend(); ++newcomer) {
-    if (newcomer->change->action == ChangeAction::start) change(newcomer->change->service);
+  for (auto trial = trials_.rbegin(); trial != trials_.rend(); ++trial) {
+    if (trial->change->action == ChangeAction::start) change(trial->change->service);
   }
   // From the sources on, so that what takes over gets its input from what took over before.
-  for (const Newcomer& newcomer : newcomers_) change(newcomer.change->service);
+  for (const Trial& trial : trials_) change(trial.change->service);
   stop_removed();
   world_.record.confirm(wanted_);
 }
 
-void Changeover::start_newcomers() {
+void Changeover::start_trials() {
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::replace && change.action != ChangeAction::stop) continue;
     const auto key = world_.processes.key_of(change.service);
@@ -135,7 +135,7 @@ void Changeover::start_newcomers() {
     const auto key = keys.find(plan->name);
     const int started = key == keys.end() ? start(*plan) : key->second;
     keys[plan->name] = started;
-    newcomers_.push_back({&change, &wanted_.service(change.service), &*plan, started});
+    trials_.push_back({&change, &wanted_.service(change.service), &*plan, started});
   }
 }
 
@@ -183,21 +183,21 @@ int Changeover::readers_to_go(const ServiceConfig& service) const {
 }
 
 void Changeover::wait_until_ready() {
-  const auto deadline = world_.dialogue.now() + patience_;
+  const auto deadline = world_.dialogue.now() + timeout_;
   std::set<std::string> waiting;
-  for (const Newcomer& newcomer : newcomers_) waiting.insert(label(*newcomer.config));
+  for (const Trial& trial : trials_) waiting.insert(label(*trial.config));
   while (!waiting.empty()) {
-    for (Newcomer& newcomer : newcomers_) {
-      const std::string& name = label(*newcomer.config);
+    for (Trial& trial : trials_) {
+      const std::string& name = label(*trial.config);
       if (!waiting.contains(name)) continue;
-      if (const auto end = world_.processes.end_of_trial(newcomer.key)) {
-        const std::string line = message_of(world_.last_line(newcomer.plan->name));
+      if (const auto end = world_.processes.end_of_trial(trial.key)) {
+        const std::string line = message_of(world_.last_line(trial.plan->name));
         throw std::runtime_error("the new process of service '" + name + "' ended with " +
                                  describe(*end) + (line.empty() ? "" : ": " + line));
       }
-      if (ready(newcomer)) waiting.erase(name);
+      if (ready(trial)) waiting.erase(name);
       if (!waiting.empty() && world_.dialogue.now() > deadline) {
-        throw std::runtime_error(why_not_ready(newcomer));
+        throw std::runtime_error(why_not_ready(trial));
       }
     }
     if (!world_.dialogue.pump()) throw std::runtime_error("the deployment is stopping");
@@ -214,16 +214,16 @@ void Changeover::wait_until_ready() {
   }
 }
 
-bool Changeover::ready(Newcomer& newcomer) {
-  if (newcomer.config->external()) return world_.processes.running(newcomer.key);
+bool Changeover::ready(Trial& trial) {
+  if (trial.config->external()) return world_.processes.running(trial.key);
   const auto process =
-      world_.record.process(label(*newcomer.config), world_.processes.process_id(newcomer.key));
+      world_.record.process(label(*trial.config), world_.processes.process_id(trial.key));
   if (!process) return false;
-  if (!can_be_held(*newcomer.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
+  if (!can_be_held(*trial.config)) return process->state == msg::ServiceState::STATE_ACTIVE;
   if (process->state != msg::ServiceState::STATE_HELD) return false;
-  newcomer.incarnation = process->incarnation;
+  trial.incarnation = process->incarnation;
   return world_.dialogue
-      .ask(label(*newcomer.config), newcomer.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
+      .ask(label(*trial.config), trial.incarnation, msg::ControlAction::CONTROL_DESCRIBE)
       .has_value();
 }
 
@@ -233,11 +233,11 @@ std::uint64_t Changeover::incarnation_of(const std::string& service, int key) co
   return process ? process->incarnation : 0;
 }
 
-std::string Changeover::why_not_ready(const Newcomer& newcomer) const {
-  const std::string& name = label(*newcomer.config);
-  const auto process = world_.record.process(name, world_.processes.process_id(newcomer.key));
+std::string Changeover::why_not_ready(const Trial& trial) const {
+  const std::string& name = label(*trial.config);
+  const auto process = world_.record.process(name, world_.processes.process_id(trial.key));
   std::string text =
-      "the new process of service '" + name + "' was not ready within " + in_seconds(patience_);
+      "the new process of service '" + name + "' was not ready within " + in_seconds(timeout_);
   if (!process) return text + ": nothing was heard of it";
   return process->detail.empty() ? text : text + ": " + process->detail;
 }
@@ -258,12 +258,12 @@ void Changeover::roll_back() {
   for (const std::string& name : swapped_) (void)world_.dialogue.swap(running_.service(name));
   first_scans_.clear();
   std::set<int> keys;
-  for (const Newcomer& newcomer : newcomers_) keys.insert(newcomer.key);
+  for (const Trial& trial : trials_) keys.insert(trial.key);
   std::map<int, int> process_ids;
   for (const int key : keys) process_ids[key] = world_.processes.process_id(key);
   for (const int key : keys) stop({key});
-  for (const Newcomer& newcomer : newcomers_) {
-    world_.record.forget(label(*newcomer.config), process_ids[newcomer.key]);
+  for (const Trial& trial : trials_) {
+    world_.record.forget(label(*trial.config), process_ids[trial.key]);
   }
   for (const ProcessPlan& plan : stopped_beforehand_) {
     const int key = world_.processes.add(plan);
@@ -275,38 +275,38 @@ void Changeover::roll_back() {
 /// Whoever takes over from a process that reads the same scans keeps them from now on: what runs
 /// beside it in one process hears nobody else once its neighbour has been replaced.
 void Changeover::hold_all() {
-  for (Newcomer& newcomer : newcomers_) {
-    const std::string name = label(*newcomer.config);
-    const bool takes_over = newcomer.change->same_scans && predecessors_.contains(name) &&
-                            newcomer.change->action == ChangeAction::replace;
-    if (!takes_over || newcomer.held || newcomer.config->is_source()) continue;
-    newcomer.held = hold(newcomer, first_scan_patience);
+  for (Trial& trial : trials_) {
+    const std::string name = label(*trial.config);
+    const bool takes_over = trial.change->same_scans && predecessors_.contains(name) &&
+                            trial.change->action == ChangeAction::replace;
+    if (!takes_over || trial.held || trial.config->is_source()) continue;
+    trial.held = hold(trial, first_scan_timeout);
   }
 }
 
-void Changeover::begin(const Newcomer& newcomer) {
-  if (!can_be_held(*newcomer.config)) {
-    world_.processes.adopt(newcomer.key, *newcomer.plan);
+void Changeover::begin(const Trial& trial) {
+  if (!can_be_held(*trial.config)) {
+    world_.processes.adopt(trial.key, *trial.plan);
     return;
   }
-  const msg::ControlReply held = hold(newcomer, milliseconds(0));
-  if (held.held_scans() > 0 || newcomer.config->is_source()) {
-    first_scans_[label(*newcomer.config)] = held.first_sequence_number();
+  const msg::ControlReply held = hold(trial, milliseconds(0));
+  if (held.held_scans() > 0 || trial.config->is_source()) {
+    first_scans_[label(*trial.config)] = held.first_sequence_number();
   }
-  begin_with(newcomer, {});
+  begin_with(trial, {});
 }
 
-void Changeover::take_over(const Newcomer& newcomer) {
-  const auto predecessor = predecessors_.find(label(*newcomer.config));
+void Changeover::take_over(const Trial& trial) {
+  const auto predecessor = predecessors_.find(label(*trial.config));
   if (predecessor == predecessors_.end()) {
-    begin(newcomer);
+    begin(trial);
     return;
   }
-  const bool same_scans = newcomer.change->same_scans;
-  const bool source = newcomer.config->is_source();
+  const bool same_scans = trial.change->same_scans;
+  const bool source = trial.config->is_source();
   const msg::ControlReply held =
-      newcomer.held ? *newcomer.held : hold(newcomer, source ? seconds(0) : first_scan_patience);
-  const std::string name = label(*newcomer.config);
+      trial.held ? *trial.held : hold(trial, source ? seconds(0) : first_scan_timeout);
+  const std::string name = label(*trial.config);
   const int key = predecessor->second;
   // Each of its services may take its time.
   world_.processes.retire(key, false, world_.processes.plan(key).services.size());
@@ -325,13 +325,13 @@ void Changeover::take_over(const Newcomer& newcomer) {
   first_scans_[name] = same_scans && !take.positions().empty()
                            ? take.positions().front().sequence_number()
                            : held.first_sequence_number();
-  begin_with(newcomer, std::move(take));
+  begin_with(trial, std::move(take));
 }
 
-msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patience) {
-  const auto deadline = world_.dialogue.now() + patience;
+msg::ControlReply Changeover::hold(const Trial& trial, milliseconds timeout) {
+  const auto deadline = world_.dialogue.now() + timeout;
   while (true) {
-    const auto reply = world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation,
+    const auto reply = world_.dialogue.ask(label(*trial.config), trial.incarnation,
                                            msg::ControlAction::CONTROL_HOLD);
     if (!reply) return {};
     if (reply->held_scans() > 0 || world_.dialogue.now() >= deadline) return *reply;
@@ -339,14 +339,13 @@ msg::ControlReply Changeover::hold(const Newcomer& newcomer, milliseconds patien
   }
 }
 
-void Changeover::begin_with(const Newcomer& newcomer, msg::ControlRequest take) {
-  world_.processes.adopt(newcomer.key, *newcomer.plan);
+void Changeover::begin_with(const Trial& trial, msg::ControlRequest take) {
+  world_.processes.adopt(trial.key, *trial.plan);
   take.action(msg::ControlAction::CONTROL_TAKE_OVER);
-  const auto reply =
-      world_.dialogue.ask(label(*newcomer.config), newcomer.incarnation, std::move(take));
+  const auto reply = world_.dialogue.ask(label(*trial.config), trial.incarnation, std::move(take));
   // Started again it works like any other.
   const bool begun = reply && reply->accepted();
-  if (!begun && !world_.processes.stopping()) world_.processes.kill(newcomer.key);
+  if (!begun && !world_.processes.stopping()) world_.processes.kill(trial.key);
 }
 
 void Changeover::stop_removed() {

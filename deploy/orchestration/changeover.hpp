@@ -43,7 +43,7 @@ class Changeover {
   /// how to start the services of `wanted`, held processes apart. All must outlive the object.
   Changeover(World world, const Deployment& running, const Deployment& wanted, const Plan& plan,
              const Plan& elsewhere, const std::vector<ProcessPlan>& plans,
-             std::chrono::milliseconds patience);
+             std::chrono::milliseconds timeout);
 
   /// Up to where it can be rolled back. Throws std::runtime_error with the reason when it was.
   void prepare();
@@ -60,7 +60,7 @@ class Changeover {
   }
 
  private:
-  struct Newcomer {
+  struct Trial {
     const Change* change;
     const ServiceConfig* config;
     const ProcessPlan* plan;
@@ -69,21 +69,20 @@ class Changeover {
     std::optional<msg::ControlReply> held = std::nullopt;  ///< since when it keeps what comes
   };
 
-  void start_newcomers();
+  void start_trials();
   [[nodiscard]] int start(const ProcessPlan& plan);
   [[nodiscard]] int readers_to_go(const ServiceConfig& service) const;
   void wait_until_ready();
-  [[nodiscard]] bool ready(Newcomer& newcomer);
+  [[nodiscard]] bool ready(Trial& trial);
   [[nodiscard]] std::uint64_t incarnation_of(const std::string& service, int key) const;
-  [[nodiscard]] std::string why_not_ready(const Newcomer& newcomer) const;
+  [[nodiscard]] std::string why_not_ready(const Trial& trial) const;
   void swap_methods();
   void commit();
   void hold_all();
-  void begin(const Newcomer& newcomer);
-  void take_over(const Newcomer& newcomer);
-  [[nodiscard]] msg::ControlReply hold(const Newcomer& newcomer,
-                                       std::chrono::milliseconds patience);
-  void begin_with(const Newcomer& newcomer, msg::ControlRequest take);
+  void begin(const Trial& trial);
+  void take_over(const Trial& trial);
+  [[nodiscard]] msg::ControlReply hold(const Trial& trial, std::chrono::milliseconds timeout);
+  void begin_with(const Trial& trial, msg::ControlRequest take);
   void stop_removed();
   void stop_service(const std::string& service);
   void stop(const std::vector<int>& keys);
@@ -94,8 +93,8 @@ class Changeover {
   const Plan& plan_;
   const Plan& elsewhere_;
   const std::vector<ProcessPlan>& plans_;
-  std::chrono::milliseconds patience_;
-  std::vector<Newcomer> newcomers_;
+  std::chrono::milliseconds timeout_;
+  std::vector<Trial> trials_;
   std::map<std::string, int> predecessors_;      // keys of processes that are left, by service
   std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
   std::vector<std::string> swapped_;

@@ -44,15 +44,15 @@ Plan plan_elsewhere(const Deployment& running, const Deployment& wanted, const s
 }
 
 /// Does one change after the other as it is told. Throws when it is told to withdraw.
-void follow(const NextCue& next_cue, Changeover& changeover) {
+void follow(const NextInstruction& next_instruction, Changeover& changeover) {
   for (bool begun = false;; begun = true) {
-    const Cue cue = next_cue(begun);
-    if (cue.kind == Cue::Kind::finish) return;
-    if (cue.kind == Cue::Kind::withdraw) {
+    const Instruction instruction = next_instruction(begun);
+    if (instruction.kind == Instruction::Kind::finish) return;
+    if (instruction.kind == Instruction::Kind::withdraw) {
       changeover.roll_back();
-      throw std::runtime_error(cue.text);
+      throw std::runtime_error(instruction.text);
     }
-    changeover.change(cue.text);
+    changeover.change(instruction.text);
   }
 }
 
@@ -114,11 +114,11 @@ void Composition::carry_out(const Changeover::World& world, const ApplyRequest& 
 
   auto copy = std::make_unique<FrozenFile>(text);
   std::vector<ProcessPlan> plans = plans_of(wanted, host_, *copy);
-  const Plan elsewhere = request.next_cue ? plan_elsewhere(running, wanted, host_) : Plan{};
-  Changeover changeover(world, running, wanted, plan, elsewhere, plans, request.patience);
+  const Plan elsewhere = request.next_instruction ? plan_elsewhere(running, wanted, host_) : Plan{};
+  Changeover changeover(world, running, wanted, plan, elsewhere, plans, request.timeout);
   outcome.rolled_back = true;
   changeover.prepare();
-  if (request.next_cue) follow(request.next_cue, changeover);
+  if (request.next_instruction) follow(request.next_instruction, changeover);
   outcome.rolled_back = false;
   changeover.finish();
   for (msg::ControlStep& step : outcome.steps) {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "deploy/orchestration/changeover.hpp"
-#include "deploy/orchestration/cue.hpp"
 #include "deploy/orchestration/frozen_file.hpp"
+#include "deploy/orchestration/instruction.hpp"
 #include "deploy/orchestration/supervisor.hpp"
 #include "services/deployment/deployment.hpp"
 
@@ -25,8 +25,9 @@ struct ApplyRequest {
   std::filesystem::path file;
   std::optional<std::uint64_t> checksum = std::nullopt;  ///< of the text that the requester means
   bool dry_run = false;
-  std::chrono::milliseconds patience{10'000};  ///< for new processes to be ready
-  NextCue next_cue = nullptr;  ///< for who changes other hosts, too: asked once everything is ready
+  std::chrono::milliseconds timeout{10'000};  ///< for new processes to be ready
+  NextInstruction next_instruction =
+      nullptr;  ///< for who changes other hosts, too: asked once everything is ready
 };
 
 struct ApplyOutcome {

@@ -15,7 +15,7 @@ using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
 // A service answers within five seconds, or is killed.
-constexpr milliseconds answer_patience{5500};
+constexpr milliseconds answer_timeout{5500};
 
 void set_method(const ServiceConfig& config, msg::ControlRequest& request) {
   request.method(config.method);
@@ -61,9 +61,9 @@ std::optional<msg::ControlReply> Dialogue::ask(const std::string& service,
   request.incarnation(incarnation);
   // Only the first request to a process can get lost: before the endpoints are matched.
   const bool question = request.action() == msg::ControlAction::CONTROL_DESCRIBE;
-  const auto deadline = now() + (question ? milliseconds(3000) : answer_patience);
+  const auto deadline = now() + (question ? milliseconds(3000) : answer_timeout);
   do {
-    if (const auto reply = answer(request, question ? milliseconds(300) : answer_patience)) {
+    if (const auto reply = answer(request, question ? milliseconds(300) : answer_timeout)) {
       return reply;
     }
   } while (now() < deadline && !processes_.stopping());
@@ -77,7 +77,7 @@ Dialogue::Swap Dialogue::swap(const ServiceConfig& config) {
   request.action(msg::ControlAction::CONTROL_SWAP_METHOD);
   set_method(config, request);
   request.drop_state(true);  // the plan has said so
-  const auto reply = answer(request, answer_patience);
+  const auto reply = answer(request, answer_timeout);
   if (!reply) return {"does not answer"};
   if (!reply->accepted()) return {"refuses: " + reply->detail()};
   if (!reply->detail().empty()) return {};
@@ -107,8 +107,8 @@ Deployment Dialogue::describe(const Deployment& deployment) {
   return described;
 }
 
-bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds patience) {
-  const auto deadline = now() + patience;
+bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds timeout) {
+  const auto deadline = now() + timeout;
   while (!condition()) {
     if (now() >= deadline || !pump()) return false;
   }
@@ -116,10 +116,10 @@ bool Dialogue::wait_until(const std::function<bool()>& condition, milliseconds p
 }
 
 std::optional<msg::ControlReply> Dialogue::answer(msg::ControlRequest& request,
-                                                  milliseconds patience) {
+                                                  milliseconds timeout) {
   const std::uint64_t number = requester_.send(request);
   std::optional<msg::ControlReply> reply;
-  wait_until([&] { return (reply = requester_.take(number)).has_value(); }, patience);
+  wait_until([&] { return (reply = requester_.take(number)).has_value(); }, timeout);
   return reply;
 }
 

@@ -44,12 +44,12 @@ class Dialogue {
   [[nodiscard]] Requester::Clock::time_point now() const { return requester_.now(); }
   /// Lets the processes be supervised for a moment; false when the deployment is to stop.
   bool pump() { return pump_(); }
-  /// False after `patience`, or when the deployment is to stop.
-  bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds patience);
+  /// False after `timeout`, or when the deployment is to stop.
+  bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds timeout);
 
  private:
   [[nodiscard]] std::optional<msg::ControlReply> answer(msg::ControlRequest& request,
-                                                        std::chrono::milliseconds patience);
+                                                        std::chrono::milliseconds timeout);
 
   const SupervisedProcesses& processes_;
   Requester& requester_;

@@ -32,8 +32,8 @@ namespace {
 
 // [s] Readers that live are found again in less. While it waits for others a process does nothing
 // for those either.
-constexpr auto patience_of_a_restart = "2";
-constexpr auto patience_of_a_secured_restart = "6";
+constexpr auto timeout_of_a_restart = "2";
+constexpr auto timeout_of_a_secured_restart = "6";
 
 /// Nothing when no server of the deployment is on this host.
 std::optional<ProcessPlan> discovery_plan(const Deployment& deployment,
@@ -95,8 +95,8 @@ ProcessPlan plan_of(const Deployment& deployment, const Graph& graph, const Proc
     }
     plan.source = plan.source || service->is_source();
   }
-  plan.again = {"--patience",
-                deployment.security ? patience_of_a_secured_restart : patience_of_a_restart};
+  plan.again = {"--reader-timeout",
+                deployment.security ? timeout_of_a_secured_restart : timeout_of_a_restart};
   return plan;
 }
 

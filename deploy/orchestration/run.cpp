@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 
 // On top of what new processes may take: until all hosts are ready, and while others do their
 // changes.
-constexpr milliseconds cue_patience{60'000};
+constexpr milliseconds instruction_timeout{60'000};
 
 }  // namespace
 
@@ -127,9 +127,9 @@ ApplyOutcome Run::apply(ApplyRequest request, const std::function<void(const Pla
     return look(milliseconds(2));
   });
   if (conducted_ != nullptr) {
-    request.next_cue = [this, &dialogue, cue = std::optional<msg::ControlRequest>(),
-                        patience = request.patience](bool begun) mutable {
-      return next_cue(dialogue, begun, patience, cue);
+    request.next_instruction = [this, &dialogue, instruction = std::optional<msg::ControlRequest>(),
+                                timeout = request.timeout](bool begun) mutable {
+      return next_instruction(dialogue, begun, timeout, instruction);
     };
   }
   const Changeover::World world{
@@ -155,22 +155,23 @@ ApplyOutcome Run::apply(ApplyRequest request, const std::function<void(const Pla
 }
 
 // Tells that everything is ready, or that the change of `last` has been done, and waits.
-Cue Run::next_cue(Dialogue& dialogue, bool begun, milliseconds patience,
-                  std::optional<msg::ControlRequest>& last) {
+Instruction Run::next_instruction(Dialogue& dialogue, bool begun, milliseconds timeout,
+                                  std::optional<msg::ControlRequest>& last) {
   msg::ControlReply reply;
   reply.accepted(true);
   reply.pending(!begun);
   reply.ready(!begun);
   apply_requests_.reply(begun ? *last : *conducted_, reply);
-  const bool came = dialogue.wait_until(
-      [&] { return (last = apply_requests_.take_cue()).has_value(); }, patience + cue_patience);
+  const bool came =
+      dialogue.wait_until([&] { return (last = apply_requests_.take_instruction()).has_value(); },
+                          timeout + instruction_timeout);
   const bool withdraw = came && last->action() == msg::ControlAction::CONTROL_WITHDRAW;
-  if (begun && (!came || withdraw)) return {Cue::Kind::finish, ""};
-  if (supervisor_.stopping()) return {Cue::Kind::withdraw, "the deployment is stopping"};
-  if (!came) return {Cue::Kind::withdraw, "who asked for it did not tell to go on"};
-  if (withdraw) return {Cue::Kind::withdraw, withdrawn};
-  if (last->change().empty()) return {Cue::Kind::finish, ""};
-  return {Cue::Kind::change, last->change()};
+  if (begun && (!came || withdraw)) return {Instruction::Kind::finish, ""};
+  if (supervisor_.stopping()) return {Instruction::Kind::withdraw, "the deployment is stopping"};
+  if (!came) return {Instruction::Kind::withdraw, "who asked for it did not tell to go on"};
+  if (withdraw) return {Instruction::Kind::withdraw, withdrawn};
+  if (last->change().empty()) return {Instruction::Kind::finish, ""};
+  return {Instruction::Kind::change, last->change()};
 }
 
 void Run::answer(const msg::ControlRequest& request) {

@@ -64,8 +64,8 @@ class Run {
   void warn_of_strangers();
   ApplyOutcome apply(ApplyRequest request, const std::function<void(const Plan&)>& on_plan);
   void answer(const msg::ControlRequest& request);
-  Cue next_cue(Dialogue& dialogue, bool begun, std::chrono::milliseconds patience,
-               std::optional<msg::ControlRequest>& last);
+  Instruction next_instruction(Dialogue& dialogue, bool begun, std::chrono::milliseconds timeout,
+                               std::optional<msg::ControlRequest>& last);
   [[nodiscard]] DeploymentFigures figures() const;
   [[nodiscard]] std::vector<std::string> orderly_ended() const;
 

@@ -12,7 +12,7 @@ namespace quoin::deploy {
 
 namespace {
 using std::chrono::milliseconds;
-constexpr milliseconds patience{5000};  // from SIGTERM to SIGKILL
+constexpr milliseconds timeout{5000};  // from SIGTERM to SIGKILL
 
 std::string seconds_text(milliseconds time) {
   return std::to_string(time.count() / 1000) + "." + std::to_string(time.count() % 1000 / 100) +
@@ -91,13 +91,13 @@ void Supervisor::retire(int key, bool terminate, std::size_t services) {
   Child& retired = child(key);
   retired.never_adopted = retired.never_adopted || retired.standing == Standing::trial;
   retired.standing = Standing::retired;
-  retired.told_to_stop = true;
+  retired.asked_to_stop = true;
   if (!retired.process) {
     retired.figures.phase = ProcessPhase::finished;
     return;
   }
   if (terminate) retired.process->send_signal(SIGTERM);
-  retired.kill_at = Clock::now() + patience * static_cast<int>(std::max<std::size_t>(services, 1));
+  retired.kill_at = Clock::now() + timeout * static_cast<int>(std::max<std::size_t>(services, 1));
 }
 
 void Supervisor::kill(int key) {
@@ -199,19 +199,19 @@ void Supervisor::judge(Child& child, const ProcessEnd& end) {
     return;
   }
   const bool orderly =
-      end.exited_with(exit_ok) || (child.told_to_stop && end.by_signal && end.value == SIGTERM);
+      end.exited_with(exit_ok) || (child.asked_to_stop && end.by_signal && end.value == SIGTERM);
   child.figures.phase = orderly ? ProcessPhase::finished : ProcessPhase::dead;
   if (child.standing == Standing::retired) {
     child.figures.phase = ProcessPhase::finished;
     if (!orderly) callbacks_.event(child.plan.name, "ended with " + describe(end));
   } else if (orderly) {
-    if (!child.told_to_stop && !child.plan.source) {
+    if (!child.asked_to_stop && !child.plan.source) {
       callbacks_.event(child.plan.name, "ended by itself; not started again");
     }
   } else if (child.plan.source && end.exited_with(exit_input)) {
     callbacks_.event(child.plan.name, "its input became unusable; not started again");
     fail(exit_input);
-  } else if (child.told_to_stop) {
+  } else if (child.asked_to_stop) {
     callbacks_.event(child.plan.name, "ended with " + describe(end) + " while stopping");
     fail(exit_failure);
   } else if (end.exited_with(exit_configuration) && !proved) {
@@ -277,7 +277,7 @@ void Supervisor::kill_the_late(Clock::time_point now) {
     if (!child.process || now < child.kill_at) continue;
     child.kill_at = Clock::time_point::max();
     callbacks_.event(child.plan.name,
-                     "did not stop within " + seconds_text(patience) + "; killing it");
+                     "did not stop within " + seconds_text(timeout) + "; killing it");
     child.process->send_signal(SIGKILL);
   }
 }
@@ -300,7 +300,7 @@ void Supervisor::stop_next_level(Clock::time_point now) {
   const bool new_level = lowest != level_;
   if (new_level) {
     level_ = lowest;
-    level_deadline_ = now + patience;
+    level_deadline_ = now + timeout;
   } else if (now < level_deadline_) {
     return;
   } else {
@@ -309,11 +309,11 @@ void Supervisor::stop_next_level(Clock::time_point now) {
   for (Child& child : children_) {
     if (!child.process || child.plan.level != lowest) continue;
     if (new_level) {
-      child.told_to_stop = true;
+      child.asked_to_stop = true;
       child.process->send_signal(SIGTERM);
     } else {
       callbacks_.event(child.plan.name,
-                       "did not stop within " + seconds_text(patience) + "; killing it");
+                       "did not stop within " + seconds_text(timeout) + "; killing it");
       child.process->send_signal(SIGKILL);
     }
   }
@@ -323,7 +323,7 @@ void Supervisor::kill_all() {
   request_stop();
   for (Child& child : children_) {
     if (!child.process) continue;
-    child.told_to_stop = true;
+    child.asked_to_stop = true;
     child.process->send_signal(SIGKILL);
   }
 }

@@ -86,7 +86,7 @@ class Supervisor : public SupervisedProcesses {
     std::optional<ProcessEnd> end;  ///< of a process on trial
     bool first = true;
     bool never_adopted = false;
-    bool told_to_stop = false;
+    bool asked_to_stop = false;
   };
 
   Child& insert(ProcessPlan plan);

@@ -26,7 +26,7 @@ class RecordingSource : public runtime::Source {
     return !stopping();
   }
   void warn(const std::string& text) override { warnings.push_back(text); }
-  void settle(const std::string& text) override { notes.push_back(text); }
+  void clear_warning(const std::string& text) override { notes.push_back(text); }
   void set_diagnostic(const std::string& name, const std::string& value) override {
     diagnostics[name] = value;
   }

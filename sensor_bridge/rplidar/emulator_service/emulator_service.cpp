@@ -23,7 +23,7 @@ void report_status(const EmulatorStatus& status, runtime::Activity& activity) {
 class Reporter {
  public:
   void operator()(const std::string& what) const {
-    if (activity_ != nullptr) activity_->settle(what);
+    if (activity_ != nullptr) activity_->clear_warning(what);
   }
   void set(runtime::Activity* activity) { activity_ = activity; }
 
@@ -42,7 +42,7 @@ std::function<void(runtime::Activity&)> open_emulator(const ServiceConfig& confi
       settings, [reporter](double, const std::string& what) { (*reporter)(what); }, base_directory);
   return [reporter, emulator](runtime::Activity& activity) {
     reporter->set(&activity);
-    activity.settle("emulated RPLIDAR at " + emulator->status().endpoint);
+    activity.clear_warning("emulated RPLIDAR at " + emulator->status().endpoint);
     std::thread thread([&] { emulator->run(); });
     do {
       report_status(emulator->status(), activity);

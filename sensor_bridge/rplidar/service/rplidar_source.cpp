@@ -61,8 +61,8 @@ class Bridge final : public DriverListener {
     report_value("Device ID", serial_number_text(facts.info));
     report_value("Health", std::string(name_of(facts.health.status)));
     tell_mode(plan.mode);
-    source_.settle("connected to " + product + " " + serial_number_text(facts.info) + " at " +
-                   facts.endpoint + ", scan mode " + plan.mode.name);
+    source_.clear_warning("connected to " + product + " " + serial_number_text(facts.info) +
+                          " at " + facts.endpoint + ", scan mode " + plan.mode.name);
     mode_.reset();
     troubled_ = false;
   }
@@ -77,7 +77,7 @@ class Bridge final : public DriverListener {
     scan_.header().stamp(runtime::epoch_ns(revolution.begin));
     (void)source_.publish(scan_);  // the driver notices by itself that it is to stop
     if (troubled_) {
-      source_.settle("measuring again");
+      source_.clear_warning("measuring again");
       troubled_ = false;
     }
     tell_counts(revolution);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -63,7 +64,7 @@ void sort_into_bins(const Revolution& revolution, std::size_t bins, bool inverte
     scan.time_offsets()[bin] = duration * static_cast<float>(bin) / static_cast<float>(bins);
   }
   for (std::size_t i = 0; i < revolution.angle_q16.size(); ++i) {
-    const auto nearest = static_cast<std::size_t>(revolution.angle_q16[i] / width + 0.5);
+    const auto nearest = static_cast<std::size_t>(std::lround(revolution.angle_q16[i] / width));
     const std::size_t bin = nearest == bins ? 0 : nearest;
     const float range = range_of(revolution.distance_q2[i]);
     if (range >= scan.ranges()[bin]) continue;

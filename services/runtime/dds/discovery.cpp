@@ -116,7 +116,7 @@ struct Misfit {
   std::string policy, offered, requested;
 };
 
-std::vector<Misfit> misfits(const EndpointPolicies& offered, const EndpointPolicies& requested) {
+std::vector<Misfit> mismatches(const EndpointPolicies& offered, const EndpointPolicies& requested) {
   std::vector<Misfit> found;
   if (offered.type != requested.type) return {{"type", offered.type, requested.type}};
   const auto check = [&](bool fits, const char* policy, std::string offers, std::string requests) {
@@ -140,9 +140,9 @@ std::vector<Misfit> misfits(const EndpointPolicies& offered, const EndpointPolic
 void add_misfits(const std::string& topic, const std::string& writer,
                  const EndpointPolicies& offered, const std::string& reader,
                  const EndpointPolicies& requested, std::vector<std::string>& texts) {
-  for (const Misfit& misfit : misfits(offered, requested)) {
-    std::string text = topic + ": " + misfit.policy + ": " + writer + " offers " + misfit.offered +
-                       ", " + reader + " requests " + misfit.requested;
+  for (const Misfit& mismatch : mismatches(offered, requested)) {
+    std::string text = topic + ": " + mismatch.policy + ": " + writer + " offers " +
+                       mismatch.offered + ", " + reader + " requests " + mismatch.requested;
     const bool known = std::find(texts.begin(), texts.end(), text) != texts.end();
     if (!known && texts.size() < most_misfits) texts.push_back(std::move(text));
   }
@@ -207,8 +207,8 @@ std::string KnownEndpoints::name_of(const Prefix& participant) const {
   return name.starts_with(name_space) ? name.substr(name_space.size()) : name;
 }
 
-std::vector<std::string> KnownEndpoints::misfits_of_writer(const std::string& topic,
-                                                           const EndpointPolicies& offered) const {
+std::vector<std::string> KnownEndpoints::mismatches_of_writer(
+    const std::string& topic, const EndpointPolicies& offered) const {
   const std::string own = own_name_.substr(own_name_.rfind('/') + 1);
   std::vector<std::string> texts;
   const std::lock_guard lock(mutex_);
@@ -219,7 +219,7 @@ std::vector<std::string> KnownEndpoints::misfits_of_writer(const std::string& to
   return texts;
 }
 
-std::vector<std::string> KnownEndpoints::misfits_of_reader(
+std::vector<std::string> KnownEndpoints::mismatches_of_reader(
     const std::string& topic, const EndpointPolicies& requested) const {
   const std::string own = own_name_.substr(own_name_.rfind('/') + 1);
   std::vector<std::string> texts;
@@ -248,7 +248,7 @@ std::vector<std::string> KnownEndpoints::awaited_observers(const std::string& to
   const std::lock_guard lock(mutex_);
   std::set<Prefix> unfit;
   for (const auto& [guid, reader] : readers_) {
-    if (reader.topic == topic && !misfits(offered, reader.policies).empty()) {
+    if (reader.topic == topic && !mismatches(offered, reader.policies).empty()) {
       unfit.insert(reader.participant);
     }
   }
@@ -262,7 +262,7 @@ std::vector<std::string> KnownEndpoints::awaited_observers(const std::string& to
 std::uint64_t KnownEndpoints::wait_for_new_participant(std::uint64_t seen,
                                                        std::stop_token stop) const {
   std::unique_lock lock(mutex_);
-  discovered_changed_.wait(lock, stop, [&] { return discovered_ > seen; });
+  discovered_changed_.wait(lock, std::move(stop), [&] { return discovered_ > seen; });
   return discovered_;
 }
 

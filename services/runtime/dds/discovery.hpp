@@ -53,11 +53,11 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
 
   /// Which readers of `topic` do not fit a writer of this participant, one line for each policy:
   /// "<topic>: durability: walls offers volatile, map requests transient-local".
-  [[nodiscard]] std::vector<std::string> misfits_of_writer(const std::string& topic,
-                                                           const EndpointPolicies& offered) const;
+  [[nodiscard]] std::vector<std::string> mismatches_of_writer(
+      const std::string& topic, const EndpointPolicies& offered) const;
   /// Which writers of `topic` do not fit a reader of this participant.
-  [[nodiscard]] std::vector<std::string> misfits_of_reader(const std::string& topic,
-                                                           const EndpointPolicies& requested) const;
+  [[nodiscard]] std::vector<std::string> mismatches_of_reader(
+      const std::string& topic, const EndpointPolicies& requested) const;
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
 

@@ -50,8 +50,8 @@ bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds t
 }
 
 std::vector<std::string> ReaderBase::incompatible_qos() const {
-  return impl_->participant.impl().endpoints->misfits_of_reader(impl_->topic_name,
-                                                                policies_of(*impl_->reader));
+  return impl_->participant.impl().endpoints->mismatches_of_reader(impl_->topic_name,
+                                                                   policies_of(*impl_->reader));
 }
 
 bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
@@ -176,8 +176,8 @@ bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
 }
 
 std::vector<std::string> WriterBase::incompatible_qos() const {
-  return impl_->participant.impl().endpoints->misfits_of_writer(impl_->topic_name,
-                                                                policies_of(*impl_->writer));
+  return impl_->participant.impl().endpoints->mismatches_of_writer(impl_->topic_name,
+                                                                   policies_of(*impl_->writer));
 }
 
 std::vector<std::string> WriterBase::awaited_observers() const {

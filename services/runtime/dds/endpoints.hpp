@@ -113,7 +113,7 @@ class WriterBase {
   void assert_liveliness();
   /// Names of the participants that announced that they observe this topic and have no matched
   /// reader yet; without those whose reader does not fit. To be waited for before the first
-  /// message, see Participant::discovery_settled.
+  /// message, see Participant::discovery_complete.
   [[nodiscard]] std::vector<std::string> awaited_observers() const;
   /// Names of the participants of matched readers that have been silent for longer than their
   /// lease; DDS then drops them. For a writer that is blocked, once a second: readers answer a

@@ -129,7 +129,7 @@ std::vector<std::string> Participant::written_topics() const {
   return impl_->endpoints->written_topics();
 }
 
-bool Participant::discovery_settled() const {
+bool Participant::discovery_complete() const {
   const auto age = std::chrono::steady_clock::now() - impl_->created;
   if (impl_->discovery != Discovery::server) return age >= settled_after;
   return age >= settled_after_with_server && impl_->endpoints->knows_server();

@@ -47,7 +47,7 @@ class Participant {
   [[nodiscard]] std::vector<std::string> written_topics() const;
   /// True once the participants that were there before this one are known, unless the network or
   /// the machine is slow; with Discovery::server not before a server answered.
-  [[nodiscard]] bool discovery_settled() const;
+  [[nodiscard]] bool discovery_complete() const;
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

@@ -168,8 +168,7 @@ bool Node::hold() {
       any = true;
       if (!succession_.keep(port.part.port.name, number_of(*message))) port.queue.clear();
       port.incarnation = topics::origin(*message->header).incarnation();
-      port.queue.push_back(
-          {std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
+      port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_timeout});
     }
   }
   if (const auto from = succession_.begin()) {
@@ -207,7 +206,7 @@ bool Node::take_each(std::size_t index) {
     auto message = port.part.input->take();
     if (!message) break;
     any = true;
-    port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_patience});
+    port.queue.push_back({std::move(*message), now_ns(), thread_.now() + settings_.join_timeout});
   }
   return any;
 }

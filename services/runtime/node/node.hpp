@@ -44,7 +44,7 @@ class Node {
     ParameterSettings parameters = {};
     bool held = false;  ///< it is to take over from another process
     /// How long a message waits for those around its stamp on a `by_time` port.
-    std::chrono::milliseconds join_patience{200};
+    std::chrono::milliseconds join_timeout{200};
     std::chrono::milliseconds longest_handover{5000};
     /// For a message to exchange the method at, before the request is answered.
     std::chrono::milliseconds longest_exchange{2000};

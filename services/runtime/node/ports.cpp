@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A reader that is only slow makes room sooner.
-constexpr std::chrono::seconds patience_with_readers{2};
+constexpr std::chrono::seconds slow_reader_timeout{2};
 
 /// Says once for whom a lossless writer waits, and takes it back.
 class WaitNotice {
@@ -31,7 +31,7 @@ class WaitNotice {
   WaitNotice& operator=(const WaitNotice&) = delete;
 
   void waiting(const std::vector<std::string>& silent) {
-    if (thread_.now() - begun_ < patience_with_readers) return;
+    if (thread_.now() - begun_ < slow_reader_timeout) return;
     std::string text = "waiting for readers that do not take its results";
     for (std::size_t i = 0; i < silent.size(); ++i) text += (i == 0 ? ": " : ", ") + silent[i];
     if (text == told_) return;

@@ -25,7 +25,7 @@ class Activity {
   virtual void warn(const std::string& text) = 0;
 
   /// Written to the log; takes the last warning back from the heartbeat.
-  virtual void settle(const std::string& text) = 0;
+  virtual void clear_warning(const std::string& text) = 0;
 
   /// An entry of the heartbeat; replaces the value of that name.
   virtual void set_diagnostic(const std::string& name, const std::string& value) = 0;

@@ -73,7 +73,7 @@ void add_options(CLI::App& app, Options& options) {
                  "Readers outside the deployment to wait for before the first scan: COUNT, or "
                  "SERVICE=COUNT, which may be repeated")
       ->take_all();
-  app.add_option("--patience", options.longest_wait,
+  app.add_option("--reader-timeout", options.longest_wait,
                  "Seconds to wait for readers before going on without them (10, with security 30)")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--deployment-name", options.deployment_name,

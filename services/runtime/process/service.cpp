@@ -80,7 +80,7 @@ bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
                    "waiting for " + std::to_string(expected_readers) + " readers");
   const auto deadline = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
                                                   process.longest_wait_for_readers);
-  while (matched() < expected_readers || !process.participant.discovery_settled() ||
+  while (matched() < expected_readers || !process.participant.discovery_complete() ||
          !observers().empty()) {
     if (!stop.wait_until(steady_clock::now() + milliseconds(5))) return false;
     if (!succession.held() && steady_clock::now() > deadline) {

@@ -32,7 +32,7 @@ class ServiceActivity : public Base {
     service_.record.set_detail(text);
   }
 
-  void settle(const std::string& text) override {
+  void clear_warning(const std::string& text) override {
     spdlog::info("{}", text);
     service_.record.set_detail("");
   }

@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "deploy/orchestration/cue.hpp"
+#include "deploy/orchestration/instruction.hpp"
 #include "services/deployment/graph.hpp"
 #include "tests/deploy/observation/pipeline.hpp"
 #include "tests/deploy/orchestration/fakes.hpp"

@@ -69,7 +69,7 @@ TEST_F(Supervision, ForwardsOutputLineByLine) {
 TEST_F(Supervision, TellsAProcessThatIsStartedAgainOnceItHasBeenActive) {
   ProcessPlan walls = plan("walls", "echo \"$0 $#\"; test $# -gt 0", 1);
   walls.arguments.push_back("first");
-  walls.again = {"--patience", "2"};
+  walls.again = {"--reader-timeout", "2"};
   start({walls});
   ASSERT_TRUE(poll_until([this] { return supervisor_->figures("walls").restarts == 2; }));
   active_.insert("walls");

@@ -76,7 +76,7 @@ TEST(Observers, WhoWasThereBeforeAWriterHasAllThatItWrites) {
     Participant serving({test_domain(), test_namespace() + "/front"});
     Writer<msg::Scan> writer(serving, topic, QosPreset::lossless);
     ASSERT_TRUE(within(
-        10s, [&] { return serving.discovery_settled() && writer.awaited_observers().empty(); }));
+        10s, [&] { return serving.discovery_complete() && writer.awaited_observers().empty(); }));
     EXPECT_EQ(writer.matched(), 1U);
     const auto written = write(writer, 50);
     ASSERT_EQ(take(reader, written.size()), written) << start;

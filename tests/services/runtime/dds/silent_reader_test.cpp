@@ -219,12 +219,12 @@ TEST_F(SilentReader, IsDroppedWhenTheDiscoveryServerCameBackAfterItDied) {
   auto living = start_reader();
   ASSERT_TRUE(writer_->wait_for_readers(2, 10s));
   ASSERT_TRUE(write(10));
-  while (!participant_->discovery_settled()) std::this_thread::sleep_for(1ms);
+  while (!participant_->discovery_complete()) std::this_thread::sleep_for(1ms);
   server_->kill();
   dying->kill();
   // Clients take a server that comes back within their lease for the one they know, and then may
   // never learn of new participants.
-  while (participant_->discovery_settled()) std::this_thread::sleep_for(1ms);
+  while (participant_->discovery_complete()) std::this_thread::sleep_for(1ms);
   server_ = start_server();
   EXPECT_TRUE(write(1000));
   EXPECT_TRUE(matched_within(1));

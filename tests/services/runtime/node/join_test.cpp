@@ -36,7 +36,7 @@ std::int64_t stamp_of(const msg::Lines* message) {
 class JoinTest : public testing::Test {
  protected:
   explicit JoinTest(Join join = Join::by_time) {
-    stage_.emplace(Node::Settings{.service = "pose", .join_patience = milliseconds(200)},
+    stage_.emplace(Node::Settings{.service = "pose", .join_timeout = milliseconds(200)},
                    always([this, join](Work& work) {
                      const msg::Scan& scan = work.input<msg::Scan>();
                      Joined joined{scan.header().stamp() / millisecond};

@@ -8,7 +8,7 @@
 namespace quoin::deploy {
 
 /// What who brings several hosts together wants one of them to do next, once it is ready.
-struct Cue {
+struct Instruction {
   enum class Kind { change, finish, withdraw };
   Kind kind = Kind::withdraw;
   std::string text;  ///< the service to change, or why to withdraw
@@ -18,7 +18,7 @@ struct Cue {
 inline constexpr const char* withdrawn =
     "withdrawn; another host is not ready, or quoin apply was interrupted";
 
-/// Waits for the next cue; `begun` tells whether it is too late to withdraw.
-using NextCue = std::function<Cue(bool begun)>;
+/// Waits for the next instruction; `begun` tells whether it is too late to withdraw.
+using NextInstruction = std::function<Instruction(bool begun)>;
 
 }  // namespace quoin::deploy

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/orchestration/concert.hpp"
+#include "deploy/orchestration/coordinated_apply.hpp"
 
 #include <set>
 

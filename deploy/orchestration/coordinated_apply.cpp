@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/orchestration/concert.hpp"
+#include "deploy/orchestration/coordinated_apply.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -46,7 +46,7 @@ class Concert {
       : requester_(requester),
         request_(request),
         interrupted_(interrupted),
-        patience_(request.wait()) {}
+        timeout_(request.wait()) {}
 
   std::vector<HostOutcome> apply(const std::vector<std::string>& hosts, const Deployment& wanted) {
     request_.in_concert(hosts.size() > 1);
@@ -74,8 +74,8 @@ class Concert {
   }
 
   // Takes the next answer; without one it has ended.
-  void listen(Part& part, Seconds patience) {
-    if (const auto reply = requester_.wait(part.number, from_now(patience))) {
+  void listen(Part& part, Seconds timeout) {
+    if (const auto reply = requester_.wait(part.number, from_now(timeout))) {
       take(part, *reply);
       return;
     }
@@ -98,9 +98,9 @@ class Concert {
     const auto begin = requester_.now();
     // Alone it goes on by itself.
     const bool alone = parts_.size() == 1;
-    const auto patience = [&](const Part& part) {
+    const auto timeout = [&](const Part& part) {
       if (part.reply.service().empty()) return first_answer;
-      return patience_ + Seconds(10.0) + (alone ? time_to_change(part) : Seconds(0.0));
+      return timeout_ + Seconds(10.0) + (alone ? time_to_change(part) : Seconds(0.0));
     };
     const auto settled = [](const Part& part) { return part.ended || part.ready(); };
     const auto failed = [](const Part& part) { return part.ended && !part.reply.accepted(); };
@@ -110,7 +110,7 @@ class Concert {
         if (settled(part)) continue;
         if (const auto reply = requester_.wait(part.number, from_now(Seconds(0.02)))) {
           take(part, *reply);
-        } else if (requester_.now() - begin > patience(part)) {
+        } else if (requester_.now() - begin > timeout(part)) {
           listen(part, Seconds(0.0));
         }
       }
@@ -122,11 +122,11 @@ class Concert {
   }
 
   void tell(Part& part, msg::ControlAction action, const std::string& change) {
-    msg::ControlRequest cue;
-    cue.service(supervisor_name(part.host));
-    cue.action(action);
-    cue.change(change);
-    const std::uint64_t number = requester_.send(cue);
+    msg::ControlRequest instruction;
+    instruction.service(supervisor_name(part.host));
+    instruction.action(action);
+    instruction.change(change);
+    const std::uint64_t number = requester_.send(instruction);
     if (!change.empty()) part.silent = !requester_.wait(number, from_now(longest_change));
   }
 
@@ -139,7 +139,7 @@ class Concert {
     }
     for (Part* part : waiting) {
       // The plan and the readiness may still be on their way.
-      const auto deadline = from_now(patience_ + time_to_change(*part));
+      const auto deadline = from_now(timeout_ + time_to_change(*part));
       while (!part->ended) listen(*part, deadline - requester_.now());
     }
   }
@@ -179,7 +179,7 @@ class Concert {
   Requester& requester_;
   msg::ControlRequest request_;
   const std::function<bool()>& interrupted_;
-  Seconds patience_;
+  Seconds timeout_;
   std::vector<Part> parts_;
 };
 
