@@ -18,7 +18,7 @@ constexpr double distance = 2.0;  // [m] of the walls from the sensor
 /// `function` gives a number that depends on all that is to be computed.
 template <class Function>
 double seconds_per_wall(const std::vector<Points>& walls, const Function& function) {
-  volatile double sink = 0.0;
+  [[maybe_unused]] volatile double sink = 0.0;
   const double seconds = seconds_per_call([&] {
     for (const Points& wall : walls) sink = function(wall);
   });

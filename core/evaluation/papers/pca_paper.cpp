@@ -13,23 +13,23 @@
 namespace quoin {
 namespace {
 
-constexpr double distance = 2.0;          // [m] of the line from the sensor; neither method minds
+constexpr double line_distance = 2.0;     // [m] of the line from the sensor; neither method minds
 constexpr double outlier_distance = 3.0;  // [standard deviations]
 
-/// Points about the line y = `distance`, their middle at x = 0.
+/// Points about the line y = `line_distance`, their middle at x = 0.
 void simulate(const PcaSimulation& simulation, Random& random, Points& points) {
   points.resize(simulation.points);
   const double first = -0.5 * simulation.separation * static_cast<double>(simulation.points - 1);
   for (std::size_t i = 0; i < simulation.points; ++i) {
     points.x[i] = first + simulation.separation * static_cast<double>(i);
-    points.y[i] = distance + simulation.noise * random.normal();
+    points.y[i] = line_distance + simulation.noise * random.normal();
   }
   const auto outliers = static_cast<std::size_t>(
       std::lround(simulation.outliers * static_cast<double>(simulation.points)));
   for (std::size_t k = 0; k < outliers; ++k) {
     const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
     points.y[random.index(simulation.points)] =
-        distance + side * outlier_distance * simulation.noise;
+        line_distance + side * outlier_distance * simulation.noise;
   }
   for (std::size_t i = 0; i < simulation.points; ++i) {
     points.range[i] = std::hypot(points.x[i], points.y[i]);
@@ -59,7 +59,7 @@ struct Sums {
     residual += std::sqrt(squares / static_cast<double>(points.size()));
     const double angle = normalized_angle(line.alpha - 0.5 * pi);
     angle_squares += angle * angle;
-    const double offset = normal.y() * distance - line.r;
+    const double offset = normal.y() * line_distance - line.r;
     offset_squares += offset * offset;
     ++count;
   }

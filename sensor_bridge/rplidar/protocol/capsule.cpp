@@ -48,7 +48,7 @@ void decode_express(const std::uint8_t* capsule, CapsuleAngles angles, SampleBlo
   for (std::size_t k = 0; k < block.size; k += 2) {
     const std::uint8_t* cabin = capsule + 4 + k / 2 * cabin_bytes;
     const std::uint32_t low_bits = cabin[4];
-    for (unsigned i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       const std::uint32_t word = load<std::uint16_t>(cabin + 2 * i);
       // Six bits of 1/8 degree that the vendor's manual calls signed and its software does not.
       const std::uint32_t correction_q3 = ((low_bits >> (4 * i)) & 0xF) | ((word & 3) << 4);
@@ -128,7 +128,7 @@ void decode_ultra_dense(const std::uint8_t* capsule, CapsuleAngles angles,
   for (std::size_t k = 0; k < block.size; k += 2) {
     const std::uint8_t* cabin = capsule + 10 + k / 2 * cabin_bytes;
     const std::uint32_t high_bits = cabin[4];
-    for (unsigned i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       const UltraDensePoint point = decode_ultra_dense_point(load<std::uint16_t>(cabin + 2 * i) |
                                                              ((high_bits >> (4 * i)) & 0xF) << 16);
       std::uint32_t distance_q2 = point.distance_q2;
