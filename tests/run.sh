@@ -4,7 +4,7 @@
 #
 # Installs what is missing, builds, and runs every test through CTest: the release build with everything, then all that
 # starts no processes under AddressSanitizer and UndefinedBehaviorSanitizer, what has threads under ThreadSanitizer, and
-# a short run of the fuzz targets; format and clang-tidy over the sources. What mostly waits runs beside what compiles.
+# a short run of the fuzz targets; the format of the sources, and with --tidy clang-tidy over them. What mostly waits runs beside what compiles.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -15,19 +15,19 @@ usage: tests/run.sh [--build-only] [--no-sanitizers] [--no-fuzzing]
   --build-only      install and build the release tree, run nothing
   --no-sanitizers   leave out the builds with sanitizers
   --no-fuzzing      leave out the fuzz targets, which need clang++
-  --no-style        leave out format and clang-tidy
+  --tidy            run clang-tidy over the product's sources, too, which takes some ten minutes
 TEXT
 }
 build_only=false
 sanitizers=true
 fuzzing=true
-style=true
+tidy=false
 for argument in "$@"; do
   case $argument in
     --build-only) build_only=true ;;
     --no-sanitizers) sanitizers=false ;;
     --no-fuzzing) fuzzing=false ;;
-    --no-style) style=false ;;
+    --tidy) tidy=true ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -70,7 +70,7 @@ step "packages"
 deploy/install_packages.sh
 if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
 
-if $style && ! $build_only; then
+if ! $build_only; then
   step "format"
   tests/style.sh format
 fi
@@ -97,7 +97,7 @@ if $sanitizers; then
   cmake --preset tsan
   nice cmake --build --preset tsan -j "$jobs" --target thread_tests
 fi
-if $style; then
+if $tidy; then
   step "clang-tidy"
   nice tests/style.sh tidy
 fi

@@ -43,6 +43,7 @@ Json describe(const Deployment& deployment) {
                         {"method", service.method},
                         {"qos", one ? service.outputs.front().qos : service.qos},
                         {"host", service.host},
+                        {"process", process_name(service)},
                         {"restart", service.restart == RestartPolicy::always ? "always" : "never"},
                         {"topic", one ? service.outputs.front().topic : ""},
                         {"outputs", outputs},
@@ -62,6 +63,7 @@ void print(const Deployment& deployment) {
     std::cout << "  " << label(service) << ": " << service.kind;
     if (!service.method.empty()) std::cout << '/' << service.method;
     if (!service.host.empty()) std::cout << " on " << service.host;
+    if (!service.process.empty()) std::cout << " in process " << service.process;
     std::string reads;
     for (const InputConfig& input : service.inputs) {
       reads += (reads.empty() ? " reads " : ", ") + input.service;
