@@ -165,15 +165,24 @@ void Supervisor::forget_the_retired() {
   std::set<int> forgotten;
   for (const Child& retired : children_) {
     if (retired.standing != Standing::retired || retired.process) continue;
-    if (retired.never_adopted) forgotten.insert(retired.key);
+    const auto follows = [&](const Child& successor, const std::string& service) {
+      return successor.standing == Standing::regular && successor.plan.runs(service);
+    };
+    std::vector<std::string> services = retired.plan.services;
+    if (services.empty()) services.push_back(retired.plan.name);
+    // Its services may go to several processes, one after the other.
+    const bool all_go_on = std::ranges::all_of(services, [&](const std::string& service) {
+      return std::ranges::any_of(
+          children_, [&](const Child& successor) { return follows(successor, service); });
+    });
+    if (!retired.never_adopted && !all_go_on) continue;
+    forgotten.insert(retired.key);
+    if (retired.never_adopted) continue;
     for (Child& successor : children_) {
-      const bool follows = successor.plan.name == retired.plan.name ||
-                           std::ranges::any_of(retired.plan.services, [&](const auto& service) {
-                             return successor.plan.runs(service);
-                           });
-      if (successor.standing != Standing::regular || !follows) continue;
-      successor.figures.restarts += retired.figures.restarts;
-      forgotten.insert(retired.key);
+      if (std::ranges::any_of(
+              services, [&](const std::string& service) { return follows(successor, service); })) {
+        successor.figures.restarts += retired.figures.restarts;
+      }
     }
   }
   std::erase_if(children_, [&](const Child& child) { return forgotten.contains(child.key); });

@@ -279,5 +279,28 @@ TEST_F(Supervision, UnknownNamesHaveNoFigures) {
   EXPECT_THROW((void)supervisor_->figures("rear"), std::out_of_range);
 }
 
+TEST_F(Supervision, AProcessOfSeveralServicesIsKnownUntilEachHasASuccessor) {
+  ProcessPlan both = plan("both", stage, 1);
+  both.services = {"walls", "lines"};
+  start({both});
+  ASSERT_TRUE(wait_for_line("both: ready"));
+  const int old = supervisor_->key_of("walls").value();
+  EXPECT_EQ(supervisor_->key_of("lines"), old);
+  const int walls = supervisor_->add(plan("walls", stage, 1));
+  const int lines = supervisor_->add(plan("lines", stage, 1));
+  ASSERT_TRUE(wait_for_line("lines: ready"));
+  supervisor_->adopt(walls, plan("walls", stage, 1));
+  supervisor_->retire(old, true, 2);
+  ASSERT_TRUE(poll_until([&] { return !supervisor_->running(old); }));
+  supervisor_->poll(0ms);
+  EXPECT_EQ(supervisor_->figures("lines").phase, ProcessPhase::finished) << "it has no successor";
+  supervisor_->adopt(lines, plan("lines", stage, 1));
+  supervisor_->poll(0ms);
+  EXPECT_EQ(supervisor_->key_of("lines"), lines);
+  EXPECT_EQ(supervisor_->figures("lines").phase, ProcessPhase::running);
+  supervisor_->request_stop();
+  EXPECT_TRUE(poll_to_the_end());
+}
+
 }  // namespace
 }  // namespace quoin::deploy
