@@ -63,6 +63,18 @@ void expect_every_scan(CornerRecorder& recorder) {
   EXPECT_EQ(recorder.accounting().duplicates(), 0U);
 }
 
+/// The same for a reader that a new process of the service does not know to wait for: it may miss
+/// the first scans of that, which the figures of `quoin up` tell apart from losses.
+void expect_in_order(CornerRecorder& recorder) {
+  ASSERT_TRUE(recorder.wait_for(recorder.poll() + 20));
+  std::uint64_t next = 0;
+  for (const msg::Corners& message : recorder.messages()) {
+    ASSERT_GE(topics::sequence_number(message.header()), next);
+    next = topics::sequence_number(message.header()) + 1;
+  }
+  EXPECT_EQ(recorder.accounting().duplicates(), 0U);
+}
+
 /// `quoin apply --json` while somebody reads.
 json apply(TestRun& run, CornerRecorder& recorder, const std::string& services, int exit_code = 0) {
   const auto file = run.deployment().write("changed.yaml", services);
@@ -156,22 +168,22 @@ TEST(Composed, ServicesMoveIntoAProcessAndOutOfItWithoutALoss) {
   EXPECT_EQ(together["steps"][0]["action"], "keep") << together;
   EXPECT_EQ(together["steps"][1]["action"], "replace") << together;
   EXPECT_EQ(together["steps"][1]["detail"], "process its own -> perception");
-  expect_every_scan(corners);
+  expect_in_order(corners);
   EXPECT_EQ(pids_of(run, stages).size(), 1U);
 
   const json fewer = apply(run, corners, chain + "processes: {perception: [walls, corners]}\n");
   EXPECT_EQ(fewer["steps"][1]["detail"], "with its process perception") << fewer;
   EXPECT_EQ(fewer["steps"][2]["detail"], "process perception -> its own");
-  expect_every_scan(corners);
+  expect_in_order(corners);
   EXPECT_EQ(pids_of(run, {"walls", "corners"}).size(), 1U);
   EXPECT_EQ(pids_of(run, stages).size(), 2U);
 
   (void)apply(run, corners, chain + "processes: {all: [front, walls, wctls, corners]}\n");
-  expect_every_scan(corners);
+  expect_in_order(corners);
   EXPECT_EQ(pids_of(run, {"front", "walls", "wctls", "corners"}).size(), 1U);
 
   (void)apply(run, corners, chain);
-  expect_every_scan(corners);
+  expect_in_order(corners);
   EXPECT_EQ(pids_of(run, stages).size(), 3U);
   const json figures = run.end();
   EXPECT_EQ(figures["corners"]["corners"]["scans_lost"], 0) << figures << run.log();
@@ -187,12 +199,13 @@ TEST(Composed, AServiceCanBeAddedToAProcessAndTakenOutOfTheDeployment) {
       "  - {name: utls, kind: line_fitting, input: walls, method: utls}\n"
       "processes: {perception: [walls, wctls, corners, utls]}\n";
   (void)apply(run, corners, chain + more);
-  expect_every_scan(corners);
+  expect_in_order(corners);
   EXPECT_EQ(pids_of(run, {"walls", "wctls", "corners", "utls"}).size(), 1U);
   (void)apply(run, corners, chain + in_one_process);
-  expect_every_scan(corners);
+  expect_in_order(corners);
   const json figures = run.end();
   EXPECT_EQ(figures["services"]["utls"]["state"], "removed");
+  EXPECT_EQ(figures["corners"]["corners"]["scans_delivered"], figures["scans_published"]);
   EXPECT_EQ(figures["corners"]["corners"]["scans_lost"], 0) << figures << run.log();
 }
 
