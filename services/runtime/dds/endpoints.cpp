@@ -110,10 +110,6 @@ bool WaitSet::wait(std::chrono::milliseconds timeout) {
 
 void WaitSet::wake() { impl_->woken.set_trigger_value(true); }
 
-namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::Duration_t;
-using eprosima::fastrtps::types::ReturnCode_t;
-
 WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
                        const topics::CdrCodec* codec, const TopicQos& qos)
     : participant(owner), topic_name(topic) {

@@ -51,9 +51,7 @@ class NodeThread {
     set_endpoint_report();
     // The inputs are opened once the outputs have their readers: so a whole deployment comes up
     // from its end to its sources, and the first scan finds everybody listening.
-    std::vector<const Output*> waiting;
-    for (const Node::OutputPart& part : node_.outputs()) waiting.push_back(part.output.get());
-    if (service_.wait_for_readers(waiting, node_.succession())) work();
+    if (service_.wait_for_readers(node_.outputs(), node_.succession())) work();
     for (const Node::OutputPart& part : node_.outputs()) {
       if (!part.output->wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
         spdlog::warn("not all readers have acknowledged the last results");

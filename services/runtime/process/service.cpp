@@ -26,12 +26,10 @@ ParticipantConfig participant_of(const Deployment& deployment, const std::string
 
 }  // namespace
 
-Process::Process(const Deployment& deployment_file, const std::string& process_name,
+Process::Process(const Deployment& deployment, const std::string& name,
                  const std::vector<const ServiceConfig*>& services,
                  std::chrono::duration<double> wait_for_readers, bool to_take_over)
-    : deployment(deployment_file),
-      name(process_name),
-      graph(deployment),
+    : graph(deployment),
       participant(participant_of(deployment, name, services, graph)),
       heartbeat(participant, deployment.name_space),
       control(participant, deployment.name_space),
@@ -59,19 +57,21 @@ Service::Answering::Answering(Service& service, Succession& succession,
 
 Service::Answering::~Answering() { service_.process.control.remove(label(service_.config)); }
 
-bool Service::wait_for_readers(const std::vector<const Output*>& outputs,
+bool Service::wait_for_readers(const std::vector<Node::OutputPart>& outputs,
                                const Succession& succession) {
   using std::chrono::milliseconds;
   using std::chrono::steady_clock;
   const auto matched = [&] {
     std::size_t sum = 0;
-    for (const Output* output : outputs) sum += output->matched();
+    for (const Node::OutputPart& part : outputs) sum += part.output->matched();
     return sum;
   };
   const auto observers = [&] {
     std::vector<std::string> all;
-    for (const Output* output : outputs) {
-      for (std::string& observer : output->awaited_observers()) all.push_back(std::move(observer));
+    for (const Node::OutputPart& part : outputs) {
+      for (std::string& observer : part.output->awaited_observers()) {
+        all.push_back(std::move(observer));
+      }
     }
     return all;
   };

@@ -23,8 +23,6 @@ namespace quoin::runtime {
 
 /// What the services of a process share.
 struct Process {
-  const Deployment& deployment;
-  std::string name;
   Graph graph;
   Participant participant;
   LocalTopics topics;
@@ -34,7 +32,7 @@ struct Process {
   std::chrono::duration<double> longest_wait_for_readers;
   bool held;  ///< to take over from another process of the services
 
-  Process(const Deployment& deployment_file, const std::string& process_name,
+  Process(const Deployment& deployment, const std::string& name,
           const std::vector<const ServiceConfig*>& services,
           std::chrono::duration<double> wait_for_readers, bool to_take_over);
 };
@@ -73,7 +71,7 @@ struct Service {
   /// themselves. Goes on without them after the longest wait, since a reader that crashed must not
   /// hold up the others, but not when held: the other process is still at work. False when asked to
   /// stop meanwhile.
-  [[nodiscard]] bool wait_for_readers(const std::vector<const Output*>& outputs,
+  [[nodiscard]] bool wait_for_readers(const std::vector<Node::OutputPart>& outputs,
                                       const Succession& succession);
 };
 

@@ -97,9 +97,7 @@ class PublishingSource final : public ServiceActivity<Source> {
 /// The numbers to begin with; nothing when asked to stop before there is a scan to publish.
 std::optional<Positions> wait_for_begin(Service& service, const Outputs& outputs,
                                         Succession& succession) {
-  std::vector<const Output*> waiting;
-  for (const Node::OutputPart& part : outputs) waiting.push_back(part.output.get());
-  if (!service.wait_for_readers(waiting, succession)) return std::nullopt;
+  if (!service.wait_for_readers(outputs, succession)) return std::nullopt;
   if (!succession.held()) return Positions();
   service.record.set_state(msg::ServiceState::STATE_HELD);
   while (true) {
