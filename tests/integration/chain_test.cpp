@@ -82,7 +82,7 @@ TEST(Chain, DeliversAll200ScansThroughThreeFittersWithTrueCorners) {
     SCOPED_TRACE(names[i]);
     const CornerRecorder& recorder = *recorders[i];
     EXPECT_EQ(recorder.messages().size(), 200U);
-    EXPECT_EQ(recorder.accounting().lost(), 0U);
+    EXPECT_THAT(recorder.accounting().lost_by_site(), testing::IsEmpty());
     EXPECT_EQ(recorder.accounting().duplicates(), 0U);
     EXPECT_EQ(recorder.accounting().first_sequence(), 0U);
     std::size_t corners = 0;
@@ -184,8 +184,8 @@ TEST(Chain, ALateFitterJoinsTheRunningChain) {
       },
       40s));
   EXPECT_GT(*second.accounting().first_sequence(), 0U);
-  EXPECT_EQ(second.accounting().lost(), 0U);
-  EXPECT_EQ(first.accounting().lost(), 0U);
+  EXPECT_THAT(second.accounting().lost_by_site(), testing::IsEmpty());
+  EXPECT_THAT(first.accounting().lost_by_site(), testing::IsEmpty());
 }
 
 }  // namespace

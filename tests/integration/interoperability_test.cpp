@@ -168,7 +168,7 @@ TEST_F(Interoperability, AScanOfCycloneBecomesCorners) {
   EXPECT_FLOAT_EQ(scan.ranges()[360], 2.5F / std::cos(scan.bearings()[360])) << "the wall in front";
 
   EXPECT_EQ(corners.messages().size(), scans);
-  EXPECT_EQ(corners.accounting().lost(), 0U);
+  EXPECT_THAT(corners.accounting().lost_by_site(), testing::IsEmpty());
   EXPECT_EQ(corners.accounting().duplicates(), 0U);
   EXPECT_EQ(corners.accounting().first_sequence(), 0U);
   const auto at = [](double x, double y) {

@@ -46,8 +46,7 @@ TEST(Restart, AKilledStageThatComesBackIsCaughtUpWithAndItsLossesAreItsOwn) {
       "front", [](const auto& s) { return s.state() == msg::ServiceState::STATE_STOPPED; }));
   const std::uint64_t published = status.latest("front").published();
   ASSERT_TRUE(recorder.wait_for(1));
-  ASSERT_TRUE(tests::eventually([&] {
-    recorder.poll();
+  ASSERT_TRUE(recorder.poll_until([&] {
     return topics::sequence_number(recorder.messages().back().header()) + 1 == published;
   }));
   // Every scan is delivered or lost, and the lost ones are on the account of the stage that was

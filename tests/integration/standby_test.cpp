@@ -34,8 +34,7 @@ class Standby : public testing::Test {
  protected:
   /// Whether the scans are made with lines of the process that started at `incarnation`.
   bool heard(std::uint64_t incarnation) {
-    return tests::eventually([&] {
-      recorder_.poll();
+    return recorder_.poll_until([&] {
       return recorder_.messages().back().header().trace().at(2).incarnation() == incarnation;
     });
   }
@@ -93,8 +92,7 @@ TEST_F(Standby, TakesOverFromAKilledAndFromAHungInstanceUntilThatReturns) {
 
   stop(front, "front");
   const std::uint64_t published = status_.latest("front").published();
-  ASSERT_TRUE(tests::eventually([&] {
-    recorder_.poll();
+  ASSERT_TRUE(recorder_.poll_until([&] {
     return topics::sequence_number(recorder_.messages().back().header()) + 1 == published;
   }));
   // Each scan at most once and in order, and the others lost by the service that was replaced.

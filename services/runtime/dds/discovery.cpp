@@ -266,6 +266,11 @@ std::uint64_t KnownEndpoints::wait_for_new_participant(std::uint64_t seen,
   return discovered_;
 }
 
+std::chrono::steady_clock::time_point KnownEndpoints::newest_participant() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
 bool KnownEndpoints::knows_server() const {
   const std::lock_guard lock(mutex_);
   return std::any_of(participants_.begin(), participants_.end(),
@@ -330,6 +335,7 @@ void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
   } else {
     if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
       ++discovered_;
+      newest_ = std::chrono::steady_clock::now();
       discovered_changed_.notify_all();
     }
     Known& known = participants_[prefix];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -64,6 +65,8 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   /// Number of participants discovered so far, once it is above `seen` or a stop is requested.
   [[nodiscard]] std::uint64_t wait_for_new_participant(std::uint64_t seen,
                                                        std::stop_token stop) const;
+  /// When the newest of them was discovered; the start of time before the first.
+  [[nodiscard]] std::chrono::steady_clock::time_point newest_participant() const;
   /// True if DDS checks the lease of one that lives: among clients, that of a discovery server.
   [[nodiscard]] bool knows_server() const;
 
@@ -108,6 +111,7 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   mutable std::mutex mutex_;
   mutable std::condition_variable_any discovered_changed_;
   std::uint64_t discovered_ = 0;
+  std::chrono::steady_clock::time_point newest_{};
   std::map<Prefix, Known> participants_;
   std::map<Guid, Endpoint> writers_;
   std::map<Guid, Endpoint> readers_;

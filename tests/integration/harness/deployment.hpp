@@ -7,6 +7,7 @@
 #include <idl/Corners.h>
 #include <idl/Status.h>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@
 #include "services/runtime/dds/participant.hpp"
 #include "tests/integration/harness/process.hpp"
 #include "tests/temporary_folder.hpp"
+
+namespace quoin::runtime {
+
+/// For GoogleTest's messages.
+inline void PrintTo(const LossSite& site, std::ostream* out) { *out << to_text(site); }
+
+}  // namespace quoin::runtime
 
 namespace quoin::tests {
 
@@ -77,9 +85,20 @@ class Recorder {
     }
     return messages_.size();
   }
+  /// True once `condition` holds. Reads on meanwhile, since the reader keeps the last few only.
+  template <class Condition>
+  bool poll_until(Condition condition,
+                  std::chrono::milliseconds timeout = std::chrono::seconds(20)) {
+    return eventually(
+        [&] {
+          poll();
+          return condition();
+        },
+        timeout);
+  }
   /// True once `count` messages came.
   bool wait_for(std::size_t count, std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
-    return eventually([&] { return poll() >= count; }, timeout);
+    return poll_until([&] { return messages_.size() >= count; }, timeout);
   }
   /// True once the service's writer is there.
   [[nodiscard]] bool wait_for_writer() const {
