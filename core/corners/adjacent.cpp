@@ -18,36 +18,68 @@ double angle_between(double first, double second) {
   return angle > 0.5 * pi ? pi - angle : angle;
 }
 
+/// From one vector to the other, counter-clockwise positive; in (-pi, pi] [rad].
+double angle_to(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+}
+
+/// Of the bearing between the rays of a line [rad]; 0 when unknown.
+double ray_step(const LineSegment& line) {
+  if (line.points < 2) return 0.0;
+  return std::abs(angle_to(line.start, line.end)) / static_cast<double>(line.points - 1);
+}
+
+// From the last ray of a wall to its corner. Segmenters leave out the point next to a corner, and a
+// few more may be strays.
+constexpr double steps_to_corner = 5.0;
+
+/// In (0, 2 pi), clockwise from the first wall over the sensor's side to the second.
+double opening_of(const Eigen::Vector2d& corner, const LineSegment& first,
+                  const LineSegment& second) {
+  const Eigen::Vector2d to_sensor = -corner;
+  const double opening =
+      -angle_to(first.start - corner, to_sensor) - angle_to(to_sensor, second.end - corner);
+  return opening > 0.0 ? opening : opening + 2.0 * pi;
+}
+
 }  // namespace
 
 Adjacent::Adjacent(const Parameters& parameters)
     : parameters_(parameters), sine_of_min_angle_(std::sin(parameters.min_angle)) {}
 
-bool Adjacent::find(std::span<const LineSegment> lines, std::size_t first, std::size_t second,
-                    Corner& corner) {
+std::optional<NoCornerReason> Adjacent::find(std::span<const LineSegment> lines, std::size_t first,
+                                             std::size_t second, Corner& corner) const {
   const LineSegment& a = lines[first];
   const LineSegment& b = lines[second];
-  corner.gap = std::sqrt((b.start - a.end).squaredNorm());
-  if (!(corner.gap <= parameters_.max_gap)) return false;
   const Eigen::Vector2d normal_a(normals_.x[first], normals_.y[first]);
   const Eigen::Vector2d normal_b(normals_.x[second], normals_.y[second]);
   const double cross = normal_a.x() * normal_b.y() - normal_a.y() * normal_b.x();
-  if (!(std::abs(cross) >= sine_of_min_angle_)) return false;
+  if (!(std::abs(cross) >= sine_of_min_angle_)) return NoCornerReason::small_angle;
   const auto estimate = intersect(a.estimate, normal_a, b.estimate, normal_b);
-  if (!estimate) return false;
-  corner.extrapolation = std::sqrt(std::max((estimate->position - a.end).squaredNorm(),
-                                            (estimate->position - b.start).squaredNorm()));
-  if (!(corner.extrapolation <= parameters_.max_extrapolation)) return false;
+  if (!estimate) return NoCornerReason::small_angle;
+
+  corner.gap = (b.start - a.end).norm();
+  corner.extrapolation =
+      std::max((estimate->position - a.end).norm(), (estimate->position - b.start).norm());
+  const double reach = steps_to_corner * std::min(ray_step(a), ray_step(b));
+  corner.seen = std::abs(angle_to(a.end, estimate->position)) <= reach &&
+                std::abs(angle_to(estimate->position, b.start)) <= reach;
+  if (!corner.seen) {
+    if (!(corner.gap <= parameters_.max_gap)) return NoCornerReason::wide_gap;
+    if (!(corner.extrapolation <= parameters_.max_extrapolation)) return NoCornerReason::far_away;
+  }
   corner.estimate = *estimate;
   corner.angle = angle_between(a.estimate.line.alpha, b.estimate.line.alpha);
+  corner.opening = opening_of(estimate->position, a, b);
   corner.first_line = first;
   corner.second_line = second;
-  return true;
+  return std::nullopt;
 }
 
 void Adjacent::operator()(std::span<const LineSegment> lines, double range_bias_stddev,
-                          std::vector<Corner>& corners) {
-  corners.clear();
+                          FoundCorners& found) {
+  found.corners.clear();
+  found.without.clear();
   const std::size_t count = lines.size();
   if (count < 2) return;
   normals_.resize(count);
@@ -61,12 +93,15 @@ void Adjacent::operator()(std::span<const LineSegment> lines, double range_bias_
   Corner corner;
   for (std::size_t first = 0; first < count; ++first) {
     const std::size_t second = first + 1 < count ? first + 1 : 0;
-    if (!find(lines, first, second, corner)) continue;
     // Two lines meet once, although each of them is the other's neighbour on both sides.
-    if (count == 2 && !corners.empty()) continue;
-    corners.push_back(corner);
+    if (count == 2 && !found.corners.empty()) break;
+    if (const auto reason = find(lines, first, second, corner)) {
+      found.without.push_back({first, second, *reason});
+      continue;
+    }
+    found.corners.push_back(corner);
     if (parameters_.include_range_bias && range_bias_stddev > 0.0) {
-      corners.back().estimate = with_range_bias(corner.estimate, range_bias_stddev);
+      found.corners.back().estimate = with_range_bias(corner.estimate, range_bias_stddev);
     }
   }
 }

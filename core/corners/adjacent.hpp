@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -11,8 +12,8 @@
 
 namespace quoin {
 
-/// Corners of lines that follow each other in the scan and whose facing ends are near each other
-/// and near the intersection.
+/// Corners of lines that follow each other in the scan and meet where both end: within a few rays
+/// of the sensor, which may be far apart where they graze a wall, or within distances in metres.
 class Adjacent {
  public:
   static constexpr const char* name = "adjacent";
@@ -30,14 +31,16 @@ class Adjacent {
     bool include_range_bias = true;
 
     static constexpr auto fields() {
-      return std::make_tuple(field(&Parameters::min_angle, "min_angle", "rad", 0.01, 1.57,
-                                   "lines that meet at a smaller angle make no corner"),
-                             field(&Parameters::max_gap, "max_gap", "m", 0.0, 100.0,
-                                   "largest distance between the facing ends of two lines"),
-                             field(&Parameters::max_extrapolation, "max_extrapolation", "m", 0.0,
-                                   100.0, "largest distance from a facing end to the corner"),
-                             field(&Parameters::include_range_bias, "include_range_bias",
-                                   "add the sensor's range bias to the covariance of each corner"));
+      return std::make_tuple(
+          field(&Parameters::min_angle, "min_angle", "rad", 0.01, 1.57,
+                "lines that meet at a smaller angle make no corner"),
+          field(&Parameters::max_gap, "max_gap", "m", 0.0, 100.0,
+                "largest distance between the facing ends of two lines that are not seen "
+                "up to their corner"),
+          field(&Parameters::max_extrapolation, "max_extrapolation", "m", 0.0, 100.0,
+                "largest distance from such an end to the corner"),
+          field(&Parameters::include_range_bias, "include_range_bias",
+                "add the sensor's range bias to the covariance of each corner"));
     }
   };
 
@@ -45,11 +48,13 @@ class Adjacent {
   explicit Adjacent(const Parameters& parameters);
 
   void operator()(std::span<const LineSegment> lines, double range_bias_stddev,
-                  std::vector<Corner>& corners);
+                  FoundCorners& found);
 
  private:
-  bool find(std::span<const LineSegment> lines, std::size_t first, std::size_t second,
-            Corner& corner);
+  /// The corner of two lines, or why there is none.
+  [[nodiscard]] std::optional<NoCornerReason> find(std::span<const LineSegment> lines,
+                                                   std::size_t first, std::size_t second,
+                                                   Corner& corner) const;
 
   Parameters parameters_;
   double sine_of_min_angle_ = 0.0;

@@ -19,6 +19,7 @@ struct TrueSegment {
   Segment segment;
   std::size_t wall = Hit::no_wall;
   Line line;
+  double middle = 0.0;  // [m] along the line, of where its rays meet it
   bool required = false;
 };
 
@@ -53,12 +54,16 @@ void find_true_segments(const World& world, const Points& points,
     std::size_t end = begin + 1;
     while (end < labels.size() && labels[end] == labels[begin]) ++end;
     if (labels[begin] != Hit::no_wall) {
-      const Wall& wall = world.walls[labels[begin]];
-      TrueSegment segment{{begin, end}, labels[begin], wall_line(wall, pose), false};
-      segment.required = end - begin >= worth.min_points &&
-                         length_between(segment.line, points.bearing[begin],
-                                        points.bearing[end - 1]) >= worth.min_length;
-      truth.push_back(segment);
+      const Line line = wall_line(world.walls[labels[begin]], pose);
+      const double first = points.bearing[begin];
+      const double last = points.bearing[end - 1];
+      truth.push_back(
+          {.segment = {begin, end},
+           .wall = labels[begin],
+           .line = line,
+           .middle = 0.5 * line.r * (std::tan(first - line.alpha) + std::tan(last - line.alpha)),
+           .required = end - begin >= worth.min_points &&
+                       length_between(line, first, last) >= worth.min_length});
     }
     begin = end;
   }
@@ -70,6 +75,13 @@ std::size_t overlap(const Segment& a, const Segment& b) {
   return begin < end ? end - begin : 0;
 }
 
+std::size_t points_on_wall(const std::vector<std::size_t>& labels, const Segment& segment,
+                           std::size_t wall) {
+  return static_cast<std::size_t>(
+      std::count(labels.begin() + static_cast<std::ptrdiff_t>(segment.begin),
+                 labels.begin() + static_cast<std::ptrdiff_t>(segment.end), wall));
+}
+
 /// How far a found line is from the true one.
 struct LineError {
   double alpha;     // [rad]
@@ -77,16 +89,13 @@ struct LineError {
   double distance;  // [m] at the middle of the true segment
 };
 
-LineError error_of(const Line& found, const TrueSegment& truth, const Points& points) {
+LineError error_of(const Line& found, const TrueSegment& truth) {
   const Line& line = truth.line;
   // Near the sensor the normal may turn over.
   const bool turned = std::abs(normalized_angle(found.alpha - line.alpha)) > 0.5 * pi;
   const double alpha = normalized_angle(found.alpha - line.alpha + (turned ? pi : 0.0));
   const double r = (turned ? -found.r : found.r) - line.r;
-  const double along = 0.5 * line.r *
-                       (std::tan(points.bearing[truth.segment.begin] - line.alpha) +
-                        std::tan(points.bearing[truth.segment.end - 1] - line.alpha));
-  return {alpha, r, std::abs(r - along * std::sin(alpha))};
+  return {alpha, r, std::abs(r - truth.middle * std::sin(alpha))};
 }
 
 }  // namespace
@@ -104,7 +113,7 @@ SegmentationQuality judge_segmentation(const Segmenter& segmenter, std::span<con
   Points points;
   std::vector<std::size_t> labels;
   std::vector<TrueSegment> truth;
-  std::vector<Segment> found;
+  Segmentation found;
   for (std::size_t w = 0; w < worlds.size(); ++w) {
     ScannerSettings settings;
     settings.noise = noise;
@@ -115,27 +124,31 @@ SegmentationQuality judge_segmentation(const Segmenter& segmenter, std::span<con
       label_points(scan, points, labels);
       find_true_segments(worlds[w], points, labels, worth, truth);
       segmenter(points, noise, found);
+      const std::vector<Segment> in_scan = found.segments;
+      set_aside(points, found);
       ++quality.scans;
-      quality.found_segments += found.size();
+      quality.found_segments += in_scan.size();
       for (const TrueSegment& segment : truth) quality.true_segments += segment.required ? 1 : 0;
-      for (const Segment& segment : found) {
-        const FitResult fit = fitter(points.view().subview(segment.begin, segment.end), noise);
+      for (std::size_t i = 0; i < in_scan.size(); ++i) {
+        const Segment& segment = in_scan[i];
+        const Segment& own = found.segments[i];
+        const FitResult fit = fitter(points.view().subview(own.begin, own.end), noise);
         bool matched = false;
-        bool small = false;
+        std::size_t small = 0;
         for (const TrueSegment& candidate : truth) {
+          // More than half of the found points, and of those of this stretch of the wall.
+          if (2 * points_on_wall(labels, segment, candidate.wall) <= own.size()) continue;
           const std::size_t common = overlap(segment, candidate.segment);
-          // With more than half of the union in common it is the only match of both.
-          const std::size_t together = segment.size() + candidate.segment.size() - common;
-          if (!candidate.required && 2 * common > segment.size()) small = true;
-          if (!candidate.required || 2 * common <= together || !fit.ok()) continue;
-          const LineError error = error_of(fit.estimate.line, candidate, points);
+          if (!candidate.required) small += common;
+          if (!candidate.required || 2 * common <= candidate.segment.size() || !fit.ok()) continue;
+          const LineError error = error_of(fit.estimate.line, candidate);
           if (std::abs(error.alpha) > matching.angle || error.distance > matching.distance) break;
           matched = true;
+          ++quality.matches;
           alpha_squares += error.alpha * error.alpha;
           r_squares += error.r * error.r;
         }
-        quality.matches += matched ? 1 : 0;
-        false_segments += matched || small ? 0 : 1;
+        false_segments += matched || 2 * small > own.size() ? 0 : 1;
       }
     }
   }

@@ -21,8 +21,10 @@ struct WorthFinding {
   double min_length = 0.5;  ///< [m]
 };
 
-/// What makes a match of a found and a true segment: more than half of the points of their union in
-/// common, and a line that passes the middle of the true one so near and at so small an angle.
+/// What makes a match of a found and a true segment: more than half of the found points on the
+/// wall, more than half of the true ones in the found segment, and a line that passes the middle of
+/// the true one so near and at so small an angle. A wall that something stands in front of has
+/// several true segments, all of which one found segment may match.
 struct Matching {
   double distance = 0.1;               ///< [m]
   double angle = 0.17453292519943295;  ///< [rad] 10 deg
@@ -34,11 +36,12 @@ struct SegmentationQuality {
   std::size_t scans = 0;
   std::size_t true_segments = 0;
   std::size_t found_segments = 0;
-  std::size_t matches = 0;
-  Interval true_positive_rate;   ///< matches / true segments
-  Interval false_positive_rate;  ///< (found - matches - too small to be required) / found
-  double alpha_stddev = 0.0;     ///< [rad] of the lines of matched segments from the true ones
-  double r_stddev = 0.0;         ///< [m]
+  std::size_t matches = 0;      ///< true segments that were found
+  Interval true_positive_rate;  ///< matches / true segments
+  Interval
+      false_positive_rate;    ///< neither matching nor of a wall too small to be required / found
+  double alpha_stddev = 0.0;  ///< [rad] of the lines of matched segments from the true ones
+  double r_stddev = 0.0;      ///< [m]
 };
 
 /// Segments one scan from the start of each world's path, `scans_per_world` times with new noise.

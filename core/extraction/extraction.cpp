@@ -18,17 +18,19 @@ ScanView view(const SimulatedScan& scan, const ScannerSettings& settings) {
 void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
                      const SensorModel& fitting) {
   convert(scan, points_);
-  segmenter_(points_, segmentation, segments_);
+  segmenter_(points_, segmentation, found_);
+  set_aside(points_, found_);
   lines_.clear();
   fitted_.clear();
   failures_.clear();
-  for (const Segment& segment : segments_) {
+  for (const Segment& segment : found_.segments) {
     const PointsView points = points_.view().subview(segment.begin, segment.end);
-    const FitResult fit = fitter_(points, fitting);
+    FitResult fit = fitter_(points, fitting);
     if (!fit.ok()) {
       failures_.push_back(fit.failure);
       continue;
     }
+    admit_misfit(fit.estimate, chi_square(fit.estimate.line, points, fitting), points.size());
     lines_.push_back(line_segment(fit.estimate, fit.normal, points));
     fitted_.push_back(segment);
   }

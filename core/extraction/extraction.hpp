@@ -36,12 +36,14 @@ class Extraction {
 
   // What the last scan gave; valid until the next.
   [[nodiscard]] const Points& points() const { return points_; }
-  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return found_.segments; }
   [[nodiscard]] const std::vector<LineSegment>& lines() const { return lines_; }
+  /// Runs of points on round things.
+  [[nodiscard]] const std::vector<Segment>& arcs() const { return found_.arcs; }
   /// The segment of each line.
   [[nodiscard]] const std::vector<Segment>& fitted() const { return fitted_; }
   [[nodiscard]] const std::vector<FitFailure>& failures() const { return failures_; }
-  [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
+  [[nodiscard]] const std::vector<Corner>& corners() const { return corners_.corners; }
   /// Adds the segments of the last scan to `counts`, those with a line under FitFailure::none.
   void count_failures(FailureCounts& counts) const;
 
@@ -50,11 +52,11 @@ class Extraction {
   Fitter fitter_;
   CornerFinder finder_;
   Points points_;
-  std::vector<Segment> segments_;
+  Segmentation found_;
   std::vector<LineSegment> lines_;
   std::vector<Segment> fitted_;
   std::vector<FitFailure> failures_;
-  std::vector<Corner> corners_;
+  FoundCorners corners_;
 };
 
 }  // namespace quoin

@@ -48,6 +48,7 @@ LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& no
   };
   segment.start = projection(0);
   segment.end = projection(points.size() - 1);
+  segment.points = points.size();
   return segment;
 }
 
@@ -58,6 +59,19 @@ double chi_square(const Line& line, const PointsView& points, const SensorModel&
          normal.y(), line.r, sensor.range_stddev * sensor.range_stddev,
          sensor.bearing_stddev * sensor.bearing_stddev, sum);
   return sum;
+}
+
+double admit_misfit(LineEstimate& estimate, double chi_square, std::size_t points) {
+  if (points < 3) return 1.0;
+  const double freedom = static_cast<double>(points - 2);
+  // Wilson and Hilferty 1931: the cube root of chi square over its degrees of freedom is normal.
+  constexpr double deviations = 3.090232306167813;  // exceeded once in 1000 times
+  const double spread = 2.0 / (9.0 * freedom);
+  const double root = 1.0 - spread + deviations * std::sqrt(spread);
+  const double reduced = chi_square / freedom;
+  if (!(reduced > root * root * root)) return 1.0;
+  estimate.covariance *= reduced;
+  return reduced;
 }
 
 }  // namespace quoin

@@ -112,4 +112,9 @@ using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
 [[nodiscard]] double chi_square(const Line& line, const PointsView& points,
                                 const SensorModel& sensor);
 
+/// Scales the covariance by the reduced chi square of so many points where that is larger than
+/// noise gives once in 1000 times: an uneven wall, or a sensor with more noise than its model says.
+/// Returns the factor, 1 when nothing was done.
+double admit_misfit(LineEstimate& estimate, double chi_square, std::size_t points);
+
 }  // namespace quoin

@@ -16,7 +16,7 @@
 namespace quoin {
 
 /// All line fitters, the default first.
-using Fitters = MethodList<Wctls, Utls, Wtls, Cwlf, ArrasSiegwart, Pca, LeastSquares,
-                           MaximumLikelihood, InverseRange>;
+using Fitters = MethodList<InverseRange, Wctls, Utls, Wtls, Cwlf, ArrasSiegwart, Pca, LeastSquares,
+                           MaximumLikelihood>;
 
 }  // namespace quoin

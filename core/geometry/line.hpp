@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include <Eigen/Core>
 
@@ -66,6 +67,7 @@ struct LineSegment {
   LineEstimate estimate;
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< [m] projection of the first point
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< [m] projection of the last point
+  std::size_t points = 0;                           ///< fitted; 0 when unknown
 };
 
 }  // namespace quoin

@@ -170,9 +170,9 @@ void ExpectationMaximization::add_runs(const PointsView& points, const Segment& 
   }
 }
 
-void ExpectationMaximization::operator()(const PointsView& points, const SensorModel& sensor,
-                                         std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void ExpectationMaximization::operator()(const PointsView& scan, const SensorModel& sensor,
+                                         Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   for (const Segment& cluster : builder_.clusters()) {
     if (cluster.size() < fewest_) continue;
@@ -186,7 +186,7 @@ void ExpectationMaximization::operator()(const PointsView& points, const SensorM
     mixture_.label(points, builder_.tolerance(), labels_);
     add_runs(points, cluster);
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

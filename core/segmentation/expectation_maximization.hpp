@@ -95,8 +95,7 @@ class ExpectationMaximization {
   ExpectationMaximization() : ExpectationMaximization(Parameters{}) {}
   explicit ExpectationMaximization(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   void add_runs(const PointsView& points, const Segment& cluster);

@@ -127,14 +127,14 @@ void Hierarchical::split_at_gaps(const PointsView& points, const Segment& cluste
   split_at_slopes(points, {begin, cluster.end});
 }
 
-void Hierarchical::operator()(const PointsView& points, const SensorModel& sensor,
-                              std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void Hierarchical::operator()(const PointsView& scan, const SensorModel& sensor,
+                              Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   change_x_.resize(points.size());
   change_y_.resize(points.size());
   for (const Segment& cluster : builder_.clusters()) split_at_gaps(points, cluster);
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

@@ -56,8 +56,7 @@ class Hierarchical {
   Hierarchical() : Hierarchical(Parameters{}) {}
   explicit Hierarchical(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   void split_at_gaps(const PointsView& points, const Segment& cluster);

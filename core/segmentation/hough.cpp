@@ -141,16 +141,15 @@ void Hough::search(const PointsView& points, const Segment& cluster) {
   }
 }
 
-void Hough::operator()(const PointsView& points, const SensorModel& sensor,
-                       std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void Hough::operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   for (const Segment& cluster : builder_.clusters()) {
     if (cluster.size() < fewest_) continue;
     search(points, cluster);
     builder_.add_all(found_);
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

@@ -87,8 +87,7 @@ class Hough {
   Hough() : Hough(Parameters{}) {}
   explicit Hough(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   void search(const PointsView& points, const Segment& cluster);

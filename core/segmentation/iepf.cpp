@@ -31,11 +31,10 @@ void Iepf::split(const PointsView& points, const Segment& cluster) {
   }
 }
 
-void Iepf::operator()(const PointsView& points, const SensorModel& sensor,
-                      std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void Iepf::operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   for (const Segment& cluster : builder_.clusters()) split(points, cluster);
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

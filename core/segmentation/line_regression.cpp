@@ -35,9 +35,9 @@ void LineRegression::add(const PointsView& points, const Segment& piece) {
   }
 }
 
-void LineRegression::operator()(const PointsView& points, const SensorModel& sensor,
-                                std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void LineRegression::operator()(const PointsView& scan, const SensorModel& sensor,
+                                Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   distance_.resize(points.size());
   for (const Segment& cluster : builder_.clusters()) {
@@ -50,7 +50,7 @@ void LineRegression::operator()(const PointsView& points, const SensorModel& sen
     }
     add(points, {begin, cluster.end});
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

@@ -45,8 +45,7 @@ class LineRegression {
   LineRegression() : LineRegression(Parameters{}) {}
   explicit LineRegression(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   void compare_windows(const Segment& cluster);

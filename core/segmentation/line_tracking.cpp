@@ -37,9 +37,9 @@ std::size_t LineTracking::track(const PointsView& points, std::size_t begin,
   return end;
 }
 
-void LineTracking::operator()(const PointsView& points, const SensorModel& sensor,
-                              std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void LineTracking::operator()(const PointsView& scan, const SensorModel& sensor,
+                              Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   for (const Segment& cluster : builder_.clusters()) {
     for (std::size_t begin = cluster.begin; begin < cluster.end;) {
       const std::size_t end = track(points, begin, cluster.end);
@@ -47,7 +47,7 @@ void LineTracking::operator()(const PointsView& points, const SensorModel& senso
       begin = end;
     }
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

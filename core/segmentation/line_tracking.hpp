@@ -39,8 +39,7 @@ class LineTracking {
   LineTracking() : LineTracking(Parameters{}) {}
   explicit LineTracking(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   /// Where the line that begins here ends, at `end` at the latest.

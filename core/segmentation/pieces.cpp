@@ -131,8 +131,8 @@ std::size_t largest_gap(std::size_t min_points) {
   return 2 * std::max<std::size_t>(min_points, fewest_points + 1);
 }
 
-void drop_small(std::size_t min_points, std::vector<Piece>& pieces) {
-  const std::size_t wanted = std::max<std::size_t>(min_points, fewest_points + 1);
+void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& pieces) {
+  const std::size_t wanted = std::max<std::size_t>(fewest, fewest_points + 1);
   std::size_t kept = 0;
   bool joined = true;
   for (const Piece& candidate : pieces) {
@@ -149,6 +149,8 @@ void drop_small(std::size_t min_points, std::vector<Piece>& pieces) {
 
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    pieces[i].line.reset();
+    if (pieces[i].round) continue;
     const bool at_seam = i == 0 || i + 1 == pieces.size();
     if (!at_seam && !pieces[i].joined && !pieces[i + 1].joined) continue;
     const Segment& segment = pieces[i].segment;

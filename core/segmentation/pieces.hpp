@@ -8,6 +8,7 @@
 
 #include "core/fitting/point_sums.hpp"
 #include "core/geometry/line.hpp"
+#include "core/segmentation/block_test.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/tolerance.hpp"
 #include "core/sensor/points.hpp"
@@ -20,6 +21,8 @@ struct Piece {
   bool joined = false;  ///< to the piece before it: no break of the surface between them
   Moments moments{};    ///< of the inner points, with the weights 1 / range^2
   std::optional<NormalLine> line{};  ///< algebraic, cheap; both are filled by `fit_pieces`
+  BlockMeans blocks{};               ///< of the points, filled by `find_arcs`
+  bool round = false;                ///< no line, but an arc
 };
 
 /// Points that a piece keeps when others are taken from it.
@@ -28,9 +31,9 @@ inline constexpr std::size_t fewest_points = 3;
 /// Points that may be missing between neighbours.
 [[nodiscard]] std::size_t largest_gap(std::size_t min_points);
 
-/// Drops pieces of fewer than `min_points` points. The neighbours of what is dropped become
-/// neighbours, unless a break of the surface is between them.
-void drop_small(std::size_t min_points, std::vector<Piece>& pieces);
+/// Drops pieces of fewer than `fewest` points. The neighbours of what is dropped become neighbours,
+/// unless a break of the surface is between them.
+void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& pieces);
 
 /// Fits a line to the inner points of each piece that may have a joined neighbour; points at the
 /// ends may be on that neighbour's wall.

@@ -38,9 +38,8 @@ Segment Ransac::search(const PointsView& points, const Segment& range, Random& r
   return refined_run(points, moments_, range, best, tolerance);
 }
 
-void Ransac::operator()(const PointsView& points, const SensorModel& sensor,
-                        std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void Ransac::operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   Random random(static_cast<std::uint64_t>(parameters_.seed));
   const auto fewest = static_cast<std::size_t>(std::max(parameters_.min_points, 2));
@@ -61,7 +60,7 @@ void Ransac::operator()(const PointsView& points, const SensorModel& sensor,
     }
     builder_.add_all(found_);
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

@@ -47,8 +47,7 @@ class Ransac {
   Ransac() : Ransac(Parameters{}) {}
   explicit Ransac(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   /// The best run inside `range`, empty when there is none.

@@ -12,7 +12,7 @@
 
 namespace quoin {
 
-/// Points [begin, end) of a scan that lie on one straight wall.
+/// Points [begin, end) of a scan, such as those on one straight wall.
 struct Segment {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -21,18 +21,37 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// Splits the points of a scan (as `convert` made them) into ascending, disjoint segments. The
-/// vector is cleared first and keeps its memory. May keep working memory between calls.
-using Segmenter = std::function<void(const PointsView&, const SensorModel&, std::vector<Segment>&)>;
+/// What a segmenter finds in a scan.
+struct Segmentation {
+  std::vector<Segment> segments;     ///< straight walls: ascending, disjoint
+  std::vector<Segment> arcs;         ///< round surfaces: ascending, apart from the segments
+  std::vector<std::size_t> foreign;  ///< ascending: points inside of them that are not on them
+
+  void clear() {
+    segments.clear();
+    arcs.clear();
+    foreign.clear();
+  }
+};
+
+/// Moves the foreign points behind all others, where they keep their order, so that segments and
+/// arcs have no other points than their own; `foreign` becomes the last points.
+void set_aside(Points& points, Segmentation& found);
+
+/// Finds what is in the points of a scan (as `convert` made them). The result is cleared first and
+/// keeps its memory. May keep working memory between calls.
+using Segmenter = std::function<void(const PointsView&, const SensorModel&, Segmentation&)>;
 
 /// The parameters of every segmenter. A method's own `Parameters` derive from this and append their
 /// fields to `common_fields<Parameters>()`.
 struct SegmentationParameters {
   double split_distance = 0.05;  // [m]
+  double flatness = 0.01;        // [m]
   double noise_factor = 4.0;     // standard deviations
   int min_points = 6;
-  double min_length = 0.2;                        // [m]
+  double min_length = 0.25;                       // [m]
   double max_bend = 0.05;                         // sagitta over length
+  double max_line_gap = 0.4;                      // [m]
   double breakpoint_angle = 0.17453292519943295;  // [rad] 10 deg
   bool merge = true;
   bool refine = true;
@@ -42,10 +61,15 @@ struct SegmentationParameters {
     using P = SegmentationParameters;
     return std::make_tuple(
         field<Owner, double>(&P::split_distance, "split_distance", "m", 0.001, 0.5,
-                             "largest distance of a point from the line of its segment"),
-        field<Owner, double>(&P::noise_factor, "noise_factor", "", 0.0, 20.0,
-                             "that distance is raised to so many standard deviations of the noise "
-                             "across the line, from the sensor model at the point's range"),
+                             "distance from the line at which a wall is first split"),
+        field<Owner, double>(
+            &P::flatness, "flatness", "m", 0.0, 0.5,
+            "points farther off a wall are not of it; walls are flat to within this "
+            "distance, short ones to 1 % of their length"),
+        field<Owner, double>(
+            &P::noise_factor, "noise_factor", "", 0.0, 20.0,
+            "both distances are raised to so many standard deviations of the noise "
+            "across the line, from the sensor model at the point's range"),
         field<Owner, int>(&P::min_points, "min_points", "", 2, 10000,
                           "segments with fewer points are dropped"),
         field<Owner, double>(
@@ -54,6 +78,9 @@ struct SegmentationParameters {
         field<Owner, double>(&P::max_bend, "max_bend", "", 0.0, 1.0,
                              "segments whose sagitta is a larger part of their length, more than "
                              "noise explains, are round things and dropped"),
+        field<Owner, double>(&P::max_line_gap, "max_line_gap", "m", 0.0, 100.0,
+                             "a wall goes on behind something in front of it, or where rays are "
+                             "missing, over at most this distance"),
         field<Owner, double>(
             &P::breakpoint_angle, "breakpoint_angle", "rad", 0.01, 1.5,
             "walls met at a smaller grazing angle fall apart; larger steps of the bearing break"),

@@ -4,52 +4,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "core/sensor/multiversion.hpp"
+#include "core/segmentation/arcs.hpp"
+#include "core/segmentation/strays.hpp"
 
 namespace quoin {
 namespace {
 
 constexpr double significance = 2.0;  // standard deviations of the sagitta
-
-struct Mean {
-  double x, y;  // [m]
-};
-
-/// Means of the first and last quarters and of the half between them.
-struct Means {
-  Mean first, inner, last;
-};
-
-[[gnu::always_inline]] inline Mean mean_of(const double* __restrict x, const double* __restrict y,
-                                           std::size_t begin, std::size_t end) {
-  Mean sum{0.0, 0.0};
-  for (std::size_t i = begin; i < end; ++i) {
-    sum.x += x[i];
-    sum.y += y[i];
-  }
-  const auto scale = 1.0 / static_cast<double>(end - begin);
-  return {sum.x * scale, sum.y * scale};
-}
-
-QUOIN_MULTIVERSION
-void find_means(const double* __restrict x, const double* __restrict y, std::size_t count,
-                Means& out) {
-  const std::size_t quarter = count / 4;
-  out.first = mean_of(x, y, 0, quarter);
-  out.inner = mean_of(x, y, quarter, count - quarter);
-  out.last = mean_of(x, y, count - quarter, count);
-}
+// What a scan shows of its noise is itself an estimate.
+constexpr double clearly_more = 1.5;
+constexpr double largest_noise = 0.06;  // [m] what scatters more is clutter
 
 /// A bow of sagitta s over its chord has its inner half by s / 2 beside its two outer quarters, and
 /// the difference of those means has the variance 4 / n of a point's.
 bool is_bent(const PointsView& points, const Segment& segment, const NormalLine& chord,
              double length, const SensorModel& sensor, double max_bend) {
-  Means means;
-  find_means(&points.x[segment.begin], &points.y[segment.begin], segment.size(), means);
-  const double dx = means.inner.x - 0.5 * (means.first.x + means.last.x);
-  const double dy = means.inner.y - 0.5 * (means.first.y + means.last.y);
-  const double sagitta = 2.0 * std::abs(chord.normal_x * dx + chord.normal_y * dy);
+  const BlockMeans blocks(points, segment);
+  const std::span<const BlockMean> means = blocks.means();
+  const std::size_t quarter = means.size() / 4;
+  double dx = 0.0;
+  double dy = 0.0;
+  for (std::size_t b = 0; b < means.size(); ++b) {
+    const bool inner = b >= quarter && b < means.size() - quarter;
+    dx += inner ? means[b].x : -means[b].x;
+    dy += inner ? means[b].y : -means[b].y;
+  }
+  const double scale = 2.0 / static_cast<double>(means.size());
+  const double sagitta = 2.0 * scale * std::abs(chord.normal_x * dx + chord.normal_y * dy);
   if (!(sagitta > max_bend * length)) return false;
 
   const std::size_t middle = segment.begin + segment.size() / 2;
@@ -64,6 +47,18 @@ bool is_bent(const PointsView& points, const Segment& segment, const NormalLine&
   return sagitta * sagitta > significance * significance * variance;
 }
 
+/// Whether one point apart from the others decides over the direction: no two neighbours of a wall
+/// are farther apart than half its length.
+bool hangs_on_one_point(const PointsView& points, const Segment& segment, double squared_length) {
+  const auto squared_gap = [&points](std::size_t i, std::size_t j) {
+    const double dx = points.x[j] - points.x[i];
+    const double dy = points.y[j] - points.y[i];
+    return dx * dx + dy * dy;
+  };
+  return 4.0 * squared_gap(segment.begin, segment.begin + 1) > squared_length ||
+         4.0 * squared_gap(segment.end - 2, segment.end - 1) > squared_length;
+}
+
 /// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0.
 double straight_length_squared(const PointsView& points, const Segment& segment,
                                const SensorModel& sensor, const Tolerance& tolerance,
@@ -72,6 +67,7 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
   const double dy = points.y[segment.end - 1] - points.y[segment.begin];
   const double squared = dx * dx + dy * dy;
   if (!(squared > 4.0 * tolerance.base)) return 0.0;
+  if (segment.size() > 2 && hangs_on_one_point(points, segment, squared)) return 0.0;
   // Longer than ten times the tolerance, with the default bend: no table leg, bin or person.
   if (4.0 * max_bend * max_bend * squared > tolerance.largest) return squared;
   const double length = std::sqrt(squared);
@@ -84,30 +80,37 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
                                                                                           : squared;
 }
 
-/// Appends to `segments` the pieces that are usable lines:
+/// Appends the round pieces to the arcs and to the segments those that are usable lines:
 /// - of `min_points` points and `min_length`; half of that beside a joined piece that is long
 ///   enough, because small pieces with nothing beside them are mostly of clutter,
 /// - longer than the band of their tolerance is wide: noise makes short ones out of nothing,
+/// - with a direction that does not depend on one point at an end,
 /// - not bent: table legs, bins and people are round, and pieces of them fit into the tolerance.
 ///   Bent is what has a sagitta of more than `max_bend` of its length that noise does not explain.
 void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
                   const SegmentationParameters& parameters, const SensorModel& sensor,
-                  const Tolerance& tolerance, std::vector<Segment>& segments) {
+                  const Tolerance& tolerance, Segmentation& found) {
   const auto min_points = static_cast<std::size_t>(parameters.min_points);
   const double enough = parameters.min_length * parameters.min_length;
   double before = 0.0;   // squared length of the piece before
   bool pending = false;  // it is short and waits for a long one beside it
   Segment last;
   for (const Piece& piece : pieces) {
+    if (piece.round) {
+      found.arcs.push_back(piece.segment);
+      pending = false;
+      before = 0.0;
+      continue;
+    }
     const bool counts = piece.segment.size() >= min_points;
     const double length = counts ? straight_length_squared(points, piece.segment, sensor, tolerance,
                                                            parameters.max_bend)
                                  : 0.0;
     const bool is_long = length > 0.0 && length >= enough;
     const bool is_half = length > 0.0 && 4.0 * length >= enough;
-    if (pending && piece.joined && is_long) segments.push_back(last);
+    if (pending && piece.joined && is_long) found.segments.push_back(last);
     const bool supported = piece.joined && before > 0.0 && before >= enough;
-    if (is_long || (is_half && supported)) segments.push_back(piece.segment);
+    if (is_long || (is_half && supported)) found.segments.push_back(piece.segment);
     pending = is_half && !is_long && !supported;
     last = piece.segment;
     before = length;
@@ -117,15 +120,49 @@ void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
 }  // namespace
 
 SegmentBuilder::SegmentBuilder(const SegmentationParameters& parameters)
-    : parameters_(parameters), breakpoints_(parameters.breakpoint_angle) {}
+    : parameters_(parameters),
+      breakpoints_(parameters.breakpoint_angle, parameters.max_line_gap),
+      straightener_(parameters) {}
 
-void SegmentBuilder::start(const PointsView& points, const SensorModel& sensor) {
+/// These indices are ascending.
+void SegmentBuilder::leave_out(const std::vector<std::size_t>& left_out) {
+  const bool is_own = points_.range.data() == own_.range.data();
+  if (is_own) {
+    own_.erase(left_out);
+  } else {
+    index_.resize(points_.size());
+    std::iota(index_.begin(), index_.end(), std::size_t{0});
+    own_.assign_without(left_out, points_);
+  }
+  erase_at<std::size_t>(left_out, index_);
+  points_ = own_;
+}
+
+PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sensor) {
   pieces_.clear();
   cluster_ = 0;
+  points_ = scan;
+  index_.clear();
   sensor_ = sensor;
-  tolerance_ = Tolerance(parameters_, sensor, points);
-  coarse_points_.assign(points);
-  closed_ = !breakpoints_.find(coarse_points_, sensor, clusters_);
+  left_out_.clear();
+  find_fill(points_, sensor_, left_out_);
+  if (!left_out_.empty()) leave_out(left_out_);
+
+  const double noise = range_noise(points_);
+  if (noise > clearly_more * sensor_.range_stddev && noise <= largest_noise) {
+    sensor_.range_stddev = noise;
+  }
+  coarse_points_.assign(points_);
+  closed_ = !breakpoints_.find(coarse_points_, sensor_, clusters_);
+  left_out_.clear();
+  pass_over_strays(coarse_points_, breakpoints_,
+                   static_cast<std::size_t>(parameters_.min_points) - 1, clusters_, left_out_);
+  if (!left_out_.empty()) {
+    leave_out(left_out_);
+    coarse_points_.erase(left_out_);
+  }
+  tolerance_ = Tolerance(parameters_, sensor_, points_);
+  return points_;
 }
 
 void SegmentBuilder::add(const Segment& piece) {
@@ -143,17 +180,54 @@ void SegmentBuilder::add_all(std::vector<Segment>& pieces) {
   for (const Segment& piece : pieces) add(piece);
 }
 
-void SegmentBuilder::finish(const PointsView& points, std::vector<Segment>& segments) {
-  segments.clear();
+void SegmentBuilder::finish(Segmentation& found) {
+  found.clear();
   const auto min_points = static_cast<std::size_t>(parameters_.min_points);
   if (parameters_.merge || parameters_.refine) {
-    drop_small(min_points, pieces_);
-    fit_pieces(points, pieces_);
+    // What a method cut off a wall is joined to it before it counts as small.
+    drop_small(parameters_.merge ? fewest_points + 1 : min_points, min_points, pieces_);
+    fit_pieces(points_, pieces_);
   }
-  if (parameters_.merge) merge_collinear(points, tolerance_, pieces_);
-  if (parameters_.refine) refine_boundaries(points, min_points, tolerance_, closed_, pieces_);
+  if (parameters_.merge) {
+    merge_collinear(points_, tolerance_, pieces_);
+    drop_small(min_points, min_points, pieces_);
+    find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_);
+    left_out_.clear();
+    const bool changed = straightener_.run(points_, sensor_, pieces_, left_out_);
+    if (!left_out_.empty()) {
+      std::sort(left_out_.begin(), left_out_.end());
+      left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());
+      const auto before = [this](std::size_t i) {
+        return static_cast<std::size_t>(std::lower_bound(left_out_.begin(), left_out_.end(), i) -
+                                        left_out_.begin());
+      };
+      for (Piece& piece : pieces_) {
+        piece.segment.begin -= before(piece.segment.begin);
+        piece.segment.end -= before(piece.segment.end);
+      }
+      leave_out(left_out_);
+    }
+    if (changed) fit_pieces(points_, pieces_);
+  }
+  if (parameters_.refine) refine_boundaries(points_, min_points, tolerance_, closed_, pieces_);
 
-  select_lines(points, pieces_, parameters_, sensor_, tolerance_, segments);
+  select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found);
+  if (index_.empty()) return;
+  const auto in_scan = [this](const Segment& run) {
+    return Segment{index_[run.begin], index_[run.end - 1] + 1};
+  };
+  for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
+    for (Segment& run : *runs) {
+      const Segment whole = in_scan(run);
+      if (whole.size() != run.size()) {
+        for (std::size_t i = run.begin + 1; i < run.end; ++i) {
+          for (std::size_t k = index_[i - 1] + 1; k < index_[i]; ++k) found.foreign.push_back(k);
+        }
+      }
+      run = whole;
+    }
+  }
+  std::sort(found.foreign.begin(), found.foreign.end());
 }
 
 }  // namespace quoin

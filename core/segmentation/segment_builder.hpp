@@ -9,6 +9,7 @@
 #include "core/segmentation/breakpoints.hpp"
 #include "core/segmentation/pieces.hpp"
 #include "core/segmentation/segment.hpp"
+#include "core/segmentation/straightness.hpp"
 #include "core/segmentation/tolerance.hpp"
 
 namespace quoin {
@@ -19,16 +20,17 @@ class SegmentBuilder {
  public:
   explicit SegmentBuilder(const SegmentationParameters& parameters);
 
-  /// Finds the clusters of a new scan and clears the pieces of the last.
-  void start(const PointsView& points, const SensorModel& sensor);
+  /// Finds the clusters of a new scan and clears the pieces of the last. Returns the points that
+  /// the method works on: those of the scan, but for strays and what stands for no return.
+  [[nodiscard]] PointsView start(const PointsView& scan, const SensorModel& sensor);
 
-  /// Runs of points without a break of the surface, ascending; together they are all points.
+  /// Runs of points without a break of the surface, ascending; together they are all of them.
   [[nodiscard]] std::span<const Segment> clusters() const { return clusters_; }
 
-  /// The points of this scan.
+  /// The points that the method works on.
   [[nodiscard]] const CoarsePoints& coarse_points() const { return coarse_points_; }
 
-  /// Of the points of this scan.
+  /// Of these points; of the noise that the scan shows when that is more than its sensor's.
   [[nodiscard]] const Tolerance& tolerance() const { return tolerance_; }
 
   /// The next straight piece that the method has found: behind the one before, and inside one
@@ -38,12 +40,20 @@ class SegmentBuilder {
   /// The pieces of one cluster, found in any order; sorts them.
   void add_all(std::vector<Segment>& pieces);
 
-  /// Merges, refines and selects as the parameters say.
-  void finish(const PointsView& points, std::vector<Segment>& segments);
+  /// Merges, straightens, refines and selects as the parameters say. The result is of the points of
+  /// the scan.
+  void finish(Segmentation& found);
 
  private:
+  void leave_out(const std::vector<std::size_t>& points);
+
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
+  Straightener straightener_;
+  PointsView points_;
+  Points own_;                      // those of the scan without some
+  std::vector<std::size_t> index_;  // in the scan, of own points
+  std::vector<std::size_t> left_out_;
   CoarsePoints coarse_points_;
   SensorModel sensor_;
   Tolerance tolerance_;

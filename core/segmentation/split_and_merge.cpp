@@ -62,12 +62,12 @@ void SplitAndMerge::split(const PointsView& points, const Segment& cluster) {
   }
 }
 
-void SplitAndMerge::operator()(const PointsView& points, const SensorModel& sensor,
-                               std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void SplitAndMerge::operator()(const PointsView& scan, const SensorModel& sensor,
+                               Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   for (const Segment& cluster : builder_.clusters()) split(points, cluster);
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

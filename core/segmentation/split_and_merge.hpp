@@ -29,8 +29,7 @@ class SplitAndMerge {
   SplitAndMerge() : SplitAndMerge(Parameters{}) {}
   explicit SplitAndMerge(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   void split(const PointsView& points, const Segment& cluster);

@@ -64,9 +64,9 @@ std::size_t SuccessiveEdgeFollowing::follow(const PointsView& points, std::size_
   return end;
 }
 
-void SuccessiveEdgeFollowing::operator()(const PointsView& points, const SensorModel& sensor,
-                                         std::vector<Segment>& segments) {
-  builder_.start(points, sensor);
+void SuccessiveEdgeFollowing::operator()(const PointsView& scan, const SensorModel& sensor,
+                                         Segmentation& found) {
+  const PointsView points = builder_.start(scan, sensor);
   moments_.assign(points);
   for (const Segment& cluster : builder_.clusters()) {
     for (std::size_t begin = cluster.begin; begin < cluster.end;) {
@@ -78,7 +78,7 @@ void SuccessiveEdgeFollowing::operator()(const PointsView& points, const SensorM
       begin = end;
     }
   }
-  builder_.finish(points, segments);
+  builder_.finish(found);
 }
 
 }  // namespace quoin

@@ -43,8 +43,7 @@ class SuccessiveEdgeFollowing {
   SuccessiveEdgeFollowing() : SuccessiveEdgeFollowing(Parameters{}) {}
   explicit SuccessiveEdgeFollowing(const Parameters& parameters);
 
-  void operator()(const PointsView& points, const SensorModel& sensor,
-                  std::vector<Segment>& segments);
+  void operator()(const PointsView& scan, const SensorModel& sensor, Segmentation& found);
 
  private:
   /// Where the segment that begins here ends, at `end` at the latest.

@@ -134,6 +134,36 @@ void compute_cartesian(std::span<const float> bearings, std::span<const float> r
                   points.y.data() + at);
 }
 
+void Points::assign_without(std::span<const std::size_t> left_out, const PointsView& points) {
+  const auto copy = [&](std::span<const double> from, std::vector<double>& to) {
+    to.resize(from.size() - left_out.size());
+    double* next = to.data();
+    std::size_t begin = 0;
+    for (const std::size_t end : left_out) {
+      next = std::copy(from.data() + begin, from.data() + end, next);
+      begin = end + 1;
+    }
+    std::copy(from.data() + begin, from.data() + from.size(), next);
+  };
+  copy(points.range, range);
+  copy(points.bearing, bearing);
+  copy(points.inverse_range, inverse_range);
+  copy(points.cosine, cosine);
+  copy(points.sine, sine);
+  copy(points.x, x);
+  copy(points.y, y);
+}
+
+void Points::erase(std::span<const std::size_t> left_out) {
+  for (std::vector<double>* values : {&range, &bearing, &inverse_range, &cosine, &sine, &x, &y}) {
+    erase_at(left_out, *values);
+  }
+}
+
+void CoarsePoints::erase(std::span<const std::size_t> left_out) {
+  for (std::vector<float>* values : {&range, &x, &y}) erase_at(left_out, *values);
+}
+
 void CoarsePoints::assign(const PointsView& points) {
   range.resize(points.size());
   x.resize(points.size());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -49,6 +50,10 @@ struct Points {
   std::vector<float> scan_bearing, scan_range;  ///< working memory of `convert`
 
   void resize(std::size_t count);
+  /// The points without those at these indices, which are ascending.
+  void assign_without(std::span<const std::size_t> left_out, const PointsView& points);
+  /// Leaves out the points at these indices, which are ascending.
+  void erase(std::span<const std::size_t> left_out);
   [[nodiscard]] std::size_t size() const { return range.size(); }
   [[nodiscard]] PointsView view() const {
     return {range, bearing, inverse_range, cosine, sine, x, y};
@@ -56,12 +61,26 @@ struct Points {
   operator PointsView() const { return view(); }  // NOLINT(google-explicit-constructor)
 };
 
+/// Leaves out the values at these indices, which are ascending.
+template <class T>
+void erase_at(std::span<const std::size_t> left_out, std::vector<T>& values) {
+  if (left_out.empty()) return;
+  T* kept = values.data() + left_out.front();
+  for (std::size_t k = 0; k < left_out.size(); ++k) {
+    const std::size_t end = k + 1 < left_out.size() ? left_out[k + 1] : values.size();
+    kept = std::copy(values.data() + left_out[k] + 1, values.data() + end, kept);
+  }
+  values.resize(values.size() - left_out.size());
+}
+
 /// Points of a scan in single precision, which is micrometres: enough to see where a surface ends
 /// or a chord is left, in half the time. Lines are fitted in double precision. Keeps its memory.
 struct CoarsePoints {
   std::vector<float> range, x, y;  ///< [m]
 
   void assign(const PointsView& points);
+  /// Leaves out the points at these indices, which are ascending.
+  void erase(std::span<const std::size_t> left_out);
   [[nodiscard]] std::size_t size() const { return range.size(); }
 };
 

@@ -101,10 +101,9 @@ Fitter stoppable(Fitter fitter, std::stop_token stop) {
 
 Segmenter stoppable(Segmenter segmenter, std::stop_token stop) {
   return [segmenter = std::move(segmenter), stop = std::move(stop)](
-             const PointsView& points, const SensorModel& sensor,
-             std::vector<Segment>& segments) mutable {
+             const PointsView& points, const SensorModel& sensor, Segmentation& found) mutable {
     if (stop.stop_requested()) throw Interrupted();
-    segmenter(points, sensor, segments);
+    segmenter(points, sensor, found);
   };
 }
 

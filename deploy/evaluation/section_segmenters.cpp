@@ -170,9 +170,9 @@ class SegmentersSection : public Section {
       convert(view(scan, settings), scans.emplace_back());
     }
     const Segmenter segmenter = stoppable(make_segmenter(entry.segmenter), stop);
-    std::vector<Segment> segments;
+    Segmentation found;
     const double seconds = seconds_per_call([&] {
-      for (const Points& points : scans) segmenter(points, entry.noise, segments);
+      for (const Points& points : scans) segmenter(points, entry.noise, found);
     });
     entry.scans_per_second = static_cast<double>(scans.size()) / seconds;
   }

@@ -12,6 +12,7 @@ const std::vector<SectionKind>& section_kinds() {
       {"consistency", "Consistency of fitters", make_consistency_section},
       {"loop", "Coverage with segmentation in the loop", make_loop_section},
       {"segmenters", "Segmenters", make_segmenters_section},
+      {"robustness", "Stray returns, few rays and round things", make_robustness_section},
       {scan_files_section, "Scan files", make_scan_files_section}};
   return kinds;
 }

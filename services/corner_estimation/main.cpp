@@ -15,7 +15,7 @@ namespace {
 struct Workspace {
   CornerFinder find;
   std::vector<LineSegment> lines;
-  std::vector<Corner> corners;
+  FoundCorners corners;
 };
 
 runtime::Handler<msg::Lines, msg::Corners> make(const std::string& method,

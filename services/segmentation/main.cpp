@@ -15,7 +15,7 @@ namespace {
 struct Workspace {
   Segmenter segment;
   Points points;
-  std::vector<Segment> segments;
+  Segmentation found;
 };
 
 runtime::Handler<msg::Scan, msg::Segments> make(const std::string& method,
@@ -24,9 +24,10 @@ runtime::Handler<msg::Scan, msg::Segments> make(const std::string& method,
   work->segment = Segmenters::make<Segmenter>(method, parameters);
   return [work](const msg::Scan& scan, msg::Segments& out) -> std::size_t {
     convert({scan.bearings(), scan.ranges(), scan.range_min(), scan.range_max()}, work->points);
-    work->segment(work->points, topics::sensor_model(scan.sensor_model()), work->segments);
-    topics::fill_segments(scan, work->points, work->segments, out);
-    return work->segments.empty() ? 1 : 0;  // a scan without any line is counted
+    work->segment(work->points, topics::sensor_model(scan.sensor_model()), work->found);
+    set_aside(work->points, work->found);
+    topics::fill_segments(scan, work->points, work->found, out);
+    return work->found.segments.empty() ? 1 : 0;  // a scan without any line is counted
   };
 }
 

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <idl/Corners.h>
-#include <vector>
+#include <string>
 
 #include "core/corners/corner_finder.hpp"
 
 namespace quoin::topics {
 
 /// Everything but the header.
-void fill_corners(const std::vector<Corner>& corners, const std::string& covariance_mode,
-                  msg::Corners& out);
+void fill_corners(const FoundCorners& found, const std::string& covariance_mode, msg::Corners& out);
 
 }  // namespace quoin::topics

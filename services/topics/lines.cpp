@@ -17,7 +17,7 @@ msg::Point point_message(const Eigen::Vector2d& point) {
 
 }  // namespace
 
-void append_line(const LineEstimate& estimate, const PointsView& points, const SensorModel& sensor,
+void append_line(const LineEstimate& estimate, const PointsView& points, double chi_square,
                  std::uint32_t segment, msg::Lines& out) {
   const LineSegment ends = line_segment(estimate, points);
   const Line& line = estimate.line;
@@ -30,7 +30,7 @@ void append_line(const LineEstimate& estimate, const PointsView& points, const S
   message.start(point_message(ends.start));
   message.end(point_message(ends.end));
   message.points(static_cast<std::uint32_t>(points.size()));
-  message.chi_square(chi_square(line, points, sensor));
+  message.chi_square(chi_square);
   message.segment(segment);
 }
 
@@ -49,6 +49,7 @@ void line_segments(const msg::Lines& message, std::vector<LineSegment>& out) {
         line.covariance_alpha_r(), line.covariance_r();
     segment.start = {line.start().x(), line.start().y()};
     segment.end = {line.end().x(), line.end().y()};
+    segment.points = line.points();
   }
 }
 

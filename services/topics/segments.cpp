@@ -2,7 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/topics/segments.hpp"
 
+#include <algorithm>
+
 namespace quoin::topics {
+namespace {
+
+void fill_ranges(const std::vector<Segment>& runs, std::vector<msg::IndexRange>& out) {
+  out.resize(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    out[i].begin(static_cast<std::uint32_t>(runs[i].begin));
+    out[i].end(static_cast<std::uint32_t>(runs[i].end));
+  }
+}
+
+}  // namespace
 
 SensorModel sensor_model(const msg::SensorModel& message) {
   return {message.range_stddev(), message.bearing_stddev(), message.range_bias_stddev()};
@@ -16,25 +29,25 @@ msg::SensorModel sensor_model_message(const SensorModel& model) {
   return message;
 }
 
-void fill_segments(const msg::Scan& scan, const Points& points,
-                   const std::vector<Segment>& segments, msg::Segments& out) {
+void fill_segments(const msg::Scan& scan, const Points& points, const Segmentation& found,
+                   msg::Segments& out) {
   out.sensor_model(scan.sensor_model());
   out.scan_points(static_cast<std::uint32_t>(scan.ranges().size()));
   out.bearings().assign(points.bearing.begin(), points.bearing.end());
   out.ranges().assign(points.range.begin(), points.range.end());
-  out.segments().resize(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    out.segments()[i].begin(static_cast<std::uint32_t>(segments[i].begin));
-    out.segments()[i].end(static_cast<std::uint32_t>(segments[i].end));
-  }
+  fill_ranges(found.segments, out.segments());
+  fill_ranges(found.arcs, out.arcs());
+  out.set_aside(static_cast<std::uint32_t>(found.foreign.size()));
 }
 
 bool valid(const msg::Segments& message) {
   if (message.bearings().size() != message.ranges().size()) return false;
-  for (const msg::IndexRange& range : message.segments()) {
-    if (range.begin() > range.end() || range.end() > message.ranges().size()) return false;
-  }
-  return true;
+  const auto inside = [&](const msg::IndexRange& range) {
+    return range.begin() <= range.end() && range.end() <= message.ranges().size();
+  };
+  return message.set_aside() <= message.ranges().size() &&
+         std::all_of(message.segments().begin(), message.segments().end(), inside) &&
+         std::all_of(message.arcs().begin(), message.arcs().end(), inside);
 }
 
 }  // namespace quoin::topics

@@ -14,9 +14,9 @@ namespace quoin::topics {
 [[nodiscard]] SensorModel sensor_model(const msg::SensorModel& message);
 [[nodiscard]] msg::SensorModel sensor_model_message(const SensorModel& model);
 
-/// Everything but the header.
-void fill_segments(const msg::Scan& scan, const Points& points,
-                   const std::vector<Segment>& segments, msg::Segments& out);
+/// Everything but the header. The foreign points have been set aside.
+void fill_segments(const msg::Scan& scan, const Points& points, const Segmentation& found,
+                   msg::Segments& out);
 
 /// True when every range of the message lies inside its points; any program may have sent it.
 [[nodiscard]] bool valid(const msg::Segments& message);

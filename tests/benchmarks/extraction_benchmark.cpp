@@ -77,29 +77,32 @@ void extraction(benchmark::State& state, Until until) {
   quoin::Iepf iepf;
   const quoin::Wctls fitter;
   quoin::Adjacent finder;
-  std::vector<quoin::Segment> segments;
+  quoin::Segmentation in_scan;
   std::vector<quoin::LineSegment> fitted;
-  std::vector<quoin::Corner> found;
+  quoin::FoundCorners found;
   double corner_count = 0.0;
   for (auto _ : state) {
     const SimulatedScan& scan = rotation.next();
     quoin::convert({scan.bearings, scan.ranges, 0.1F, 40.0F}, points);
     benchmark::DoNotOptimize(points.x.data());
-    if (until >= segmentation) iepf(points, sensor, segments);
+    if (until >= segmentation) {
+      iepf(points, sensor, in_scan);
+      quoin::set_aside(points, in_scan);
+    }
     if (until >= lines) {
       fitted.clear();
-      for (const quoin::Segment& segment : segments) {
+      for (const quoin::Segment& segment : in_scan.segments) {
         const quoin::PointsView view = points.view().subview(segment.begin, segment.end);
         const quoin::FitResult fit = fitter(view, sensor);
         if (fit.ok()) fitted.push_back(quoin::line_segment(fit.estimate, fit.normal, view));
       }
     }
     if (until >= corners) finder(fitted, sensor.range_bias_stddev, found);
-    benchmark::DoNotOptimize(segments.data());
+    benchmark::DoNotOptimize(in_scan.segments.data());
     benchmark::DoNotOptimize(fitted.data());
-    benchmark::DoNotOptimize(found.data());
+    benchmark::DoNotOptimize(found.corners.data());
     benchmark::ClobberMemory();
-    corner_count += static_cast<double>(found.size());
+    corner_count += static_cast<double>(found.corners.size());
   }
   if (until == corners) {
     state.counters["corners"] =

@@ -377,7 +377,7 @@ TEST_F(Network, WhenOneHostCannotApplyNoHostChanges) {
   EXPECT_THAT(outcome["detail"].get<std::string>(), testing::HasSubstr("nowhere.csv"));
   ASSERT_TRUE(robot.has_published("lines", robot.latest("lines").published() + 40));
   EXPECT_EQ(robot.latest("lines").incarnation(), lines);
-  EXPECT_EQ(robot.latest("lines").method(), "wctls");
+  EXPECT_EQ(robot.latest("lines").method(), "inverse_range");
   EXPECT_EQ(robot.latest("walls").method(), "iepf");
   EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
 }
@@ -395,7 +395,7 @@ TEST_F(Network, AnInterruptedApplyIsDoneEverywhereOrNowhere) {
   ASSERT_TRUE(exit_code.has_value());
   const bool done = *exit_code == 0;
   ASSERT_TRUE(robot.has_published("lines", robot.latest("lines").published() + 40));
-  EXPECT_EQ(robot.latest("lines").method(), done ? "utls" : "wctls") << apply.errors();
+  EXPECT_EQ(robot.latest("lines").method(), done ? "utls" : "inverse_range") << apply.errors();
   EXPECT_EQ(robot.latest("walls").method(), done ? "hierarchical" : "iepf");
   EXPECT_EQ(robot.stop_all()["corners"]["scans_lost"], 0);
 }

@@ -80,6 +80,11 @@ void json_signed(JsonWriter* writer, const char* name, int64_t value) {
   fprintf(writer->file, "%" PRId64, value);
 }
 
+void json_bool(JsonWriter* writer, const char* name, bool value) {
+  begin_value(writer, name);
+  fputs(value ? "true" : "false", writer->file);
+}
+
 void json_string(JsonWriter* writer, const char* name, const char* value) {
   begin_value(writer, name);
   quote(writer->file, value);

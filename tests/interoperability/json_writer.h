@@ -22,4 +22,5 @@ void json_double(JsonWriter* writer, const char* name, double value);
 void json_float(JsonWriter* writer, const char* name, float value);
 void json_unsigned(JsonWriter* writer, const char* name, uint64_t value);
 void json_signed(JsonWriter* writer, const char* name, int64_t value);
+void json_bool(JsonWriter* writer, const char* name, bool value);
 void json_string(JsonWriter* writer, const char* name, const char* value);

@@ -83,8 +83,10 @@ static void write_corner(JsonWriter* writer, const quoin_msg_Corner* corner) {
   json_double(writer, "ellipse95_minor", corner->ellipse95_minor);
   json_double(writer, "ellipse95_direction", corner->ellipse95_direction);
   json_double(writer, "angle", corner->angle);
+  json_double(writer, "opening", corner->opening);
   json_double(writer, "gap", corner->gap);
   json_double(writer, "extrapolation", corner->extrapolation);
+  json_bool(writer, "seen", corner->seen);
   json_unsigned(writer, "first_line", corner->first_line);
   json_unsigned(writer, "second_line", corner->second_line);
   json_end_object(writer);
@@ -104,6 +106,18 @@ void write_scan(JsonWriter* writer, const char* name, const quoin_msg_Scan* scan
   json_end_object(writer);
 }
 
+static void write_ranges(JsonWriter* writer, const char* name, const quoin_msg_IndexRange* ranges,
+                         uint32_t count) {
+  json_begin_array(writer, name);
+  for (uint32_t i = 0; i < count; ++i) {
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "begin", ranges[i].begin);
+    json_unsigned(writer, "end", ranges[i].end);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+}
+
 void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segments* segments) {
   json_begin_object(writer, name);
   write_header(writer, &segments->header);
@@ -111,14 +125,9 @@ void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segmen
   json_unsigned(writer, "scan_points", segments->scan_points);
   write_floats(writer, "bearings", &segments->bearings);
   write_floats(writer, "ranges", &segments->ranges);
-  json_begin_array(writer, "segments");
-  for (uint32_t i = 0; i < segments->segments._length; ++i) {
-    json_begin_object(writer, NULL);
-    json_unsigned(writer, "begin", segments->segments._buffer[i].begin);
-    json_unsigned(writer, "end", segments->segments._buffer[i].end);
-    json_end_object(writer);
-  }
-  json_end_array(writer);
+  write_ranges(writer, "segments", segments->segments._buffer, segments->segments._length);
+  write_ranges(writer, "arcs", segments->arcs._buffer, segments->arcs._length);
+  json_unsigned(writer, "set_aside", segments->set_aside);
   json_end_object(writer);
 }
 
@@ -148,6 +157,15 @@ void write_corners(JsonWriter* writer, const char* name, const quoin_msg_Corners
   json_begin_array(writer, "corners");
   for (uint32_t i = 0; i < corners->corners._length; ++i) {
     write_corner(writer, &corners->corners._buffer[i]);
+  }
+  json_end_array(writer);
+  json_begin_array(writer, "without");
+  for (uint32_t i = 0; i < corners->without._length; ++i) {
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "first_line", corners->without._buffer[i].first_line);
+    json_unsigned(writer, "second_line", corners->without._buffer[i].second_line);
+    json_string(writer, "reason", corners->without._buffer[i].reason);
+    json_end_object(writer);
   }
   json_end_array(writer);
   json_end_object(writer);

@@ -34,15 +34,15 @@ TEST(SegmentationQuality, IsFullForTheTruth) {
 TEST(SegmentationQuality, CountsHalvesOfWallsAsFalse) {
   // Four walls of about 230 points each, every one cut into two.
   const Segmenter iepf = Segmenters::make<Segmenter>("iepf", {});
-  const SegmentationQuality quality = judge(
-      [&iepf](const PointsView& points, const SensorModel& sensor, std::vector<Segment>& segments) {
-        std::vector<Segment> whole;
+  const SegmentationQuality quality =
+      judge([&iepf](const PointsView& points, const SensorModel& sensor, Segmentation& found) {
+        Segmentation whole;
         iepf(points, sensor, whole);
-        segments.clear();
-        for (const Segment& segment : whole) {
+        found.clear();
+        for (const Segment& segment : whole.segments) {
           const std::size_t middle = segment.begin + segment.size() / 2;
-          segments.push_back({segment.begin, middle});
-          segments.push_back({middle, segment.end});
+          found.segments.push_back({segment.begin, middle});
+          found.segments.push_back({middle, segment.end});
         }
       });
   EXPECT_EQ(quality.found_segments, 80U);
@@ -53,10 +53,10 @@ TEST(SegmentationQuality, CountsHalvesOfWallsAsFalse) {
 
 TEST(SegmentationQuality, CountsWhatIsMissed) {
   const Segmenter iepf = Segmenters::make<Segmenter>("iepf", {});
-  const SegmentationQuality quality = judge(
-      [&iepf](const PointsView& points, const SensorModel& sensor, std::vector<Segment>& segments) {
-        iepf(points, sensor, segments);
-        segments.pop_back();
+  const SegmentationQuality quality =
+      judge([&iepf](const PointsView& points, const SensorModel& sensor, Segmentation& found) {
+        iepf(points, sensor, found);
+        found.segments.pop_back();
       });
   EXPECT_EQ(quality.true_positive_rate.value, 0.75);
   EXPECT_EQ(quality.false_positive_rate.value, 0.0);
@@ -73,9 +73,10 @@ TEST(SegmentationQuality, NeitherRequiresNorBlamesSmallWalls) {
 TEST(SegmentationQuality, RefusesALineThatIsOff) {
   const Segmenter iepf = Segmenters::make<Segmenter>("iepf", {});
   // Each wall with a third of the next: most points in common, but bent around the corner.
-  const SegmentationQuality quality = judge(
-      [&iepf](const PointsView& points, const SensorModel& sensor, std::vector<Segment>& segments) {
-        iepf(points, sensor, segments);
+  const SegmentationQuality quality =
+      judge([&iepf](const PointsView& points, const SensorModel& sensor, Segmentation& found) {
+        iepf(points, sensor, found);
+        std::vector<Segment>& segments = found.segments;
         for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
           segments[i].end = segments[i + 1].begin + segments[i + 1].size() / 3;
           segments[i + 1].begin = segments[i].end;

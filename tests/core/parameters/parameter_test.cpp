@@ -116,7 +116,7 @@ TEST(MakeParameters, AppliesSettingsAndSuggestsNames) {
 TEST(MethodList, DescribesAndMakes) {
   const auto infos = Fitters::descriptions();
   ASSERT_GE(infos.size(), 2U);
-  EXPECT_EQ(infos[0].name, "wctls");
+  EXPECT_EQ(infos[0].name, "inverse_range");
   ASSERT_EQ(infos[1].parameters.size(), 1U);
   EXPECT_EQ(infos[1].parameters[0].default_value, "propagated");
   EXPECT_TRUE(Fitters::make<Fitter>("utls", {{"covariance", "as_published"}}));

@@ -21,7 +21,7 @@ std::vector<Segment> clusters_of(const std::vector<double>& bearings,
   CoarsePoints coarse;
   coarse.assign(points_from(bearings, ranges));
   std::vector<Segment> clusters;
-  break_at_seam = BreakpointDetector(ten_degrees).find(coarse, SensorModel{}, clusters);
+  break_at_seam = BreakpointDetector(ten_degrees, 0.4).find(coarse, SensorModel{}, clusters);
   return clusters;
 }
 
@@ -44,11 +44,24 @@ TEST(BreakpointDetector, BreaksWhereTheRangeJumps) {
 
 TEST(BreakpointDetector, BreaksAtStepsOfLambdaAndBeyondAnyRange) {
   bool break_at_seam = false;
-  EXPECT_THAT(clusters_of({0.0, 0.1, 0.3}, {2.0, 2.0, 2.0}, break_at_seam),
-              ElementsAre(Segment{0, 2}, Segment{2, 3}));
+  EXPECT_THAT(clusters_of({0.0, 0.01, 0.02, 0.22}, {2.0, 2.0, 2.0, 2.0}, break_at_seam),
+              ElementsAre(Segment{0, 3}, Segment{3, 4}));
   EXPECT_TRUE(break_at_seam);
+  // Of a sensor whose rays are as far apart, it is the next.
+  EXPECT_THAT(clusters_of({0.0, 0.2, 0.4, 0.6}, {2.0, 2.0, 2.0, 2.0}, break_at_seam),
+              ElementsAre(Segment{0, 4}));
   EXPECT_THAT(clusters_of({0.0, 0.01}, {1e12, 1e13}, break_at_seam),
               ElementsAre(Segment{0, 1}, Segment{1, 2}));
+}
+
+// The distance at a grazing angle grows beyond all bounds where the step nears that angle.
+TEST(BreakpointDetector, BreaksWhereRaysAreMissingBetweenThingsApart) {
+  bool break_at_seam = false;
+  const std::vector<double> bearings{0.0, 0.01, 0.02, 0.18, 0.19, 0.2};
+  EXPECT_THAT(clusters_of(bearings, {4.5, 4.5, 4.5, 1.6, 1.6, 1.6}, break_at_seam),
+              ElementsAre(Segment{0, 3}, Segment{3, 6}));
+  EXPECT_THAT(clusters_of(bearings, {1.6, 1.6, 1.6, 1.6, 1.6, 1.6}, break_at_seam),
+              ElementsAre(Segment{0, 6}));
 }
 
 TEST(BreakpointDetector, KeepsEqualPointsTogether) {

@@ -20,11 +20,11 @@ std::vector<Segment> build(const Points& points, const std::vector<Segment>& pie
                            const SegmentationParameters& parameters = {},
                            const SensorModel& sensor = {}) {
   SegmentBuilder builder(parameters);
-  builder.start(points, sensor);
+  (void)builder.start(points, sensor);
   for (const Segment& piece : pieces) builder.add(piece);
-  std::vector<Segment> segments;
-  builder.finish(points, segments);
-  return segments;
+  Segmentation found;
+  builder.finish(found);
+  return found.segments;
 }
 
 Points noisy_wall() {
@@ -42,7 +42,11 @@ TEST(SegmentBuilder, MergesWhatIsOneLine) {
 }
 
 TEST(SegmentBuilder, LeavesOutWhatNoPieceHas) {
-  EXPECT_THAT(build(noisy_wall(), {{5, 110}}), ElementsAre(Segment{5, 110}));
+  SegmentationParameters parameters;
+  parameters.merge = false;
+  EXPECT_THAT(build(noisy_wall(), {{5, 110}}, parameters), ElementsAre(Segment{5, 110}));
+  // What is on its wall belongs to it.
+  EXPECT_THAT(build(noisy_wall(), {{5, 110}}), ElementsAre(Segment{0, 120}));
   EXPECT_THAT(build(noisy_wall(), {}), IsEmpty());
 }
 

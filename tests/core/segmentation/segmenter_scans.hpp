@@ -63,9 +63,9 @@ std::vector<Segment> segments_by(const Points& points,
                                  const typename Method::Parameters& parameters = {},
                                  const SensorModel& sensor = {}) {
   Method method(parameters);
-  std::vector<Segment> segments;
-  method(points, sensor, segments);
-  return segments;
+  Segmentation found;
+  method(points, sensor, found);
+  return found.segments;
 }
 
 /// Those of at least `fewest` points.

@@ -29,9 +29,9 @@ class EverySegmenter : public testing::TestWithParam<std::string> {
   }
   static std::vector<Segment> run(Segmenter& segmenter, const Points& points,
                                   const SensorModel& sensor = {}) {
-    std::vector<Segment> segments{{7, 9}};
-    segmenter(points, sensor, segments);
-    return segments;
+    Segmentation found{.segments = {{7, 9}}, .arcs = {{7, 9}}, .foreign = {8}};
+    segmenter(points, sensor, found);
+    return found.segments;
   }
 };
 
@@ -65,10 +65,13 @@ TEST_P(EverySegmenter, GivesStraightPiecesInOrder) {
   const SegmentationParameters defaults;
   for (const std::string& world : world_names()) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-      const Points points = noisy_points(world.c_str(), seed);
+      Points points = noisy_points(world.c_str(), seed);
       const Tolerance tolerance(defaults, SensorModel{}, points);
+      Segmentation all;
+      segmenter(points, SensorModel{}, all);
+      set_aside(points, all);
       std::size_t free_from = 0;
-      for (const Segment& segment : run(segmenter, points)) {
+      for (const Segment& segment : all.segments) {
         EXPECT_GE(segment.begin, free_from);
         EXPECT_LE(segment.end, points.size());
         EXPECT_GE(segment.size(), static_cast<std::size_t>(defaults.min_points));
@@ -77,6 +80,37 @@ TEST_P(EverySegmenter, GivesStraightPiecesInOrder) {
         EXPECT_LE(worst_distance(points, segment, tolerance), 3.0)
             << world << seed << ": " << segment.begin << " to " << segment.end;
       }
+    }
+  }
+}
+
+// In clutter, where pieces are split, joined over others and dropped.
+TEST_P(EverySegmenter, GivesRunsThatAreApartAndForeignPointsInOrder) {
+  Segmenter segmenter = make();
+  const SensorModel noise;
+  for (const World& world : cluttered_rooms(40, 8)) {
+    const ScannedWorld scanned = scan_of(world, noise, 1);
+    Points points = scanned.points;
+    Segmentation found;
+    segmenter(points, noise, found);
+    std::size_t next = 0;
+    for (const std::size_t foreign : found.foreign) {
+      EXPECT_GE(foreign, next);
+      EXPECT_LT(foreign, points.size());
+      next = foreign + 1;
+    }
+    const std::size_t lines = found.segments.size();
+    set_aside(points, found);
+    EXPECT_EQ(points.size(), scanned.points.size());
+    EXPECT_EQ(found.segments.size(), lines);
+    for (const std::vector<Segment>& runs : {found.segments, found.arcs}) {
+      std::size_t free_from = 0;
+      for (const Segment& run : runs) {
+        EXPECT_GE(run.begin, free_from);
+        EXPECT_GT(run.end, run.begin);
+        free_from = run.end;
+      }
+      EXPECT_LE(free_from, points.size() - found.foreign.size());
     }
   }
 }
@@ -125,13 +159,21 @@ TEST_P(EverySegmenter, FindsTheLongWallsOfEveryWorld) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const ScannedWorld scanned = scan_of(world, SensorModel{}, seed, 0.4 * seed);
       const auto segments = run(segmenter, scanned.points);
-      for (const Segment& wall : long_walls(nearest_walls(world, scanned))) {
+      const auto labels = nearest_walls(world, scanned);
+      for (const Segment& wall : long_walls(labels)) {
         ++walls;
-        found += std::any_of(segments.begin(), segments.end(), [&wall](const Segment& segment) {
+        found += std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
           const std::size_t begin = std::max(wall.begin, segment.begin);
           const std::size_t end = std::min(wall.end, segment.end);
-          // 70 % of the wall and of the segment are the same.
-          return end > begin && 10 * (end - begin) >= 7 * std::max(wall.size(), segment.size());
+          if (end <= begin || 10 * (end - begin) < 7 * wall.size()) return false;
+          // It may go on behind something.
+          std::size_t on_wall = 0;
+          std::size_t on_others = 0;
+          for (std::size_t i = segment.begin; i < segment.end; ++i) {
+            on_wall += labels[i] == labels[wall.begin] ? 1 : 0;
+            on_others += labels[i] != labels[wall.begin] && labels[i] != no_wall ? 1 : 0;
+          }
+          return on_wall * 3 >= on_others * 7;  // 70 % of the segment
         });
       }
     }

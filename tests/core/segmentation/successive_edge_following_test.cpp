@@ -71,7 +71,9 @@ TEST(SuccessiveEdgeFollowing, PredictsFromSoManyPoints) {
 TEST(SuccessiveEdgeFollowing, TakesABowApart) {
   std::vector<double> bearings;
   for (int i = 0; i < 300; ++i) bearings.push_back(0.0035 * i);
-  const Points points = points_from(bearings, std::vector<double>(300, 2.0));
+  std::vector<double> ranges(300, 2.0);
+  for (std::size_t i = 0; i < ranges.size(); i += 2) ranges[i] += 1e-4;  // no fill value
+  const Points points = points_from(bearings, ranges);
   auto parameters = bare();
   parameters.max_bend = 1.0;
   const auto segments = segments_by<SuccessiveEdgeFollowing>(points, parameters);

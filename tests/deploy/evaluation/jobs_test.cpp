@@ -61,15 +61,15 @@ TEST(Jobs, EndWhenTheyAreNotToProceed) {
 TEST(Jobs, MethodsStopWhenTheyAreTold) {
   std::stop_source stop;
   const Segmenter segmenter = stoppable(
-      [](const PointsView&, const SensorModel&, std::vector<Segment>& segments) {
-        segments = {{0, 7}};
+      [](const PointsView&, const SensorModel&, Segmentation& found) {
+        found.segments = {{0, 7}};
       },
       stop.get_token());
-  std::vector<Segment> segments;
-  segmenter({}, {}, segments);
-  EXPECT_EQ(segments.size(), 1U);
+  Segmentation found;
+  segmenter({}, {}, found);
+  EXPECT_EQ(found.segments.size(), 1U);
   stop.request_stop();
-  EXPECT_THROW(segmenter({}, {}, segments), Interrupted);
+  EXPECT_THROW(segmenter({}, {}, found), Interrupted);
 }
 
 TEST(DerivedSeed, DiffersBySeedAndIdentity) {

@@ -77,9 +77,10 @@ TEST(CdrCodec, JsonOfSegments) {
   segments.ranges({2.5F});
   segments.segments().resize(1);
   segments.segments()[0].end(1);
-  EXPECT_EQ(to_json(segments).dump(), std::string("{") + header_json + "," + model_json +
-                                          R"(,"scan_points":720,"bearings":[0.5],"ranges":[2.5],)"
-                                          R"("segments":[{"begin":0,"end":1}]})");
+  EXPECT_EQ(to_json(segments).dump(),
+            std::string("{") + header_json + "," + model_json +
+                R"(,"scan_points":720,"bearings":[0.5],"ranges":[2.5],)"
+                R"("segments":[{"begin":0,"end":1}],"arcs":[],"set_aside":0})");
 }
 
 TEST(CdrCodec, JsonOfLines) {
@@ -119,7 +120,8 @@ TEST(CdrCodec, JsonOfCorners) {
                 R"(,"covariance_mode":"as_published","corners":[{"x":1.5,"y":0.0,)"
                 R"("covariance_xx":0.0,"covariance_xy":0.0,"covariance_yy":0.0,"ellipse_area":0.0,)"
                 R"("ellipse95_major":0.0,"ellipse95_minor":0.0,"ellipse95_direction":0.0,)"
-                R"("angle":0.0,"gap":0.0,"extrapolation":0.125,"first_line":0,"second_line":1}]})");
+                R"("angle":0.0,"opening":0.0,"gap":0.0,"extrapolation":0.125,"seen":false,)"
+                R"("first_line":0,"second_line":1}],"without":[]})");
 }
 
 TEST(CdrCodec, JsonOfTypesOutsideTheTable) {

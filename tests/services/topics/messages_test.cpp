@@ -31,6 +31,13 @@ TEST(Messages, SegmentsWithRangesOutsideThePointsAreInvalid) {
   message.segments()[0].end(8);
   EXPECT_FALSE(valid(message));
   message.segments().clear();
+  message.arcs().resize(1);
+  message.arcs()[0].end(11);
+  EXPECT_FALSE(valid(message));
+  message.arcs().clear();
+  message.set_aside(11);
+  EXPECT_FALSE(valid(message));
+  message.set_aside(0);
   message.ranges().resize(9);
   EXPECT_FALSE(valid(message));
 }
@@ -49,7 +56,7 @@ TEST(Messages, LinesGoThereAndBack) {
   estimate.covariance << 1e-4, 2e-5, 2e-5, 3e-4;
 
   msg::Lines message;
-  append_line(estimate, points, SensorModel{}, 7, message);
+  append_line(estimate, points, chi_square(estimate.line, points, SensorModel{}), 7, message);
   append_failure(FitFailure::through_sensor, 8, message);
   ASSERT_EQ(message.lines().size(), 1U);
   EXPECT_EQ(message.lines()[0].segment(), 7U);
@@ -65,6 +72,7 @@ TEST(Messages, LinesGoThereAndBack) {
   EXPECT_EQ(lines[0].estimate.covariance, estimate.covariance);
   EXPECT_NEAR(lines[0].start.y(), -1.0, 1e-12);
   EXPECT_NEAR(lines[0].end.y(), 1.0, 1e-12);
+  EXPECT_EQ(lines[0].points, 2U);
 }
 
 TEST(Messages, CornersCarryTheirEllipses) {
@@ -73,8 +81,9 @@ TEST(Messages, CornersCarryTheirEllipses) {
   corner.estimate.covariance << 4e-4, 0.0, 0.0, 1e-4;
   corner.first_line = 3;
   corner.second_line = 4;
+  corner.seen = true;
   msg::Corners message;
-  fill_corners({corner}, "propagated", message);
+  fill_corners({{corner}, {{4, 5, NoCornerReason::wide_gap}}}, "propagated", message);
   ASSERT_EQ(message.corners().size(), 1U);
   const msg::Corner& out = message.corners()[0];
   EXPECT_NEAR(out.ellipse_area(), 3.14159265358979 * 0.02 * 0.01, 1e-12);
@@ -82,6 +91,10 @@ TEST(Messages, CornersCarryTheirEllipses) {
   EXPECT_NEAR(out.ellipse95_minor(), 0.01 * 2.447746830680816, 1e-9);
   EXPECT_NEAR(out.ellipse95_direction(), 0.0, 1e-9);
   EXPECT_EQ(out.second_line(), 4U);
+  EXPECT_TRUE(out.seen());
+  ASSERT_EQ(message.without().size(), 1U);
+  EXPECT_EQ(message.without()[0].first_line(), 4U);
+  EXPECT_EQ(message.without()[0].reason(), "wide_gap");
 }
 
 }  // namespace

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/fitting/circle.hpp"
+#include "core/fitting/orthogonal.hpp"
+#include "core/segmentation/block_test.hpp"
+
+namespace quoin {
+namespace {
+
+// Less of a circle is a line with a bow.
+constexpr double smallest_angle = 0.26;  // [rad] 15 deg about the centre
+// Chi square may be so many of its standard deviations above what is expected.
+constexpr double largest_surplus = 4.0;
+// So much must the chi square of lines be below that of a circle. What cannot be told is no corner.
+constexpr double clearly_better = 10.0;
+// A bow of more tolerances would have been split.
+constexpr double largest_bow = 3.0;
+// Of a mean from a circle through three of them, in those of a point.
+constexpr double largest_deviation = 3.0;
+
+class ArcFinder {
+ public:
+  ArcFinder(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
+            double flatness)
+      : points_(points),
+        sensor_(sensor),
+        tolerance_(tolerance),
+        flatness_(flatness),
+        floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
+
+  /// Whether the piece alone is bent like a circle.
+  [[nodiscard]] bool is_arc(const Piece& piece) const {
+    return test_blocks(piece.blocks, sensor_, flatness_).crooked &&
+           circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
+  }
+
+  /// Whether both are of one circle.
+  [[nodiscard]] bool are_arc(const Piece& first, const Piece& second) const {
+    if (!may_be_arc(first, second) || !are_means_on_circle(first, second)) {
+      return false;
+    }
+    const Segment both{first.segment.begin, second.segment.end};
+    return circle_explains(both, chi_square_of(first) + chi_square_of(second));
+  }
+
+ private:
+  [[nodiscard]] PointsView view(const Segment& segment) const {
+    return points_.subview(segment.begin, segment.end);
+  }
+
+  /// A cheap test first. Chords of lengths a and b that meet at the angle t are of a circle of
+  /// radius (a + b) / (2 t), and each has the sagitta length^2 / (8 radius).
+  [[nodiscard]] bool may_be_arc(const Piece& first, const Piece& second) const {
+    if (first.round || second.round) return true;
+    if (!first.line || !second.line) return false;
+    const double cosine =
+        first.line->normal_x * second.line->normal_x + first.line->normal_y * second.line->normal_y;
+    const double turn = std::acos(std::min(std::abs(cosine), 1.0));
+    const double a = length(first.segment);
+    const double b = length(second.segment);
+    const double longer = std::max(a, b);
+    const double sagitta = longer * longer * turn / (4.0 * (a + b));
+    return sagitta * sagitta <= largest_bow * largest_bow * tolerance_.largest;
+  }
+
+  /// Another cheap one: whether the means of blocks are near the circle through the first, the last
+  /// and one between.
+  [[nodiscard]] bool are_means_on_circle(const Piece& first, const Piece& second) const {
+    const std::span<const BlockMean> before = first.blocks.means();
+    const std::span<const BlockMean> behind = second.blocks.means();
+    const BlockMean& a = before.front();
+    const BlockMean& b = before.size() > behind.size() ? before.back() : behind.front();
+    const BlockMean& c = behind.back();
+    // About a: the centre is where the bisectors of both chords meet.
+    const double bx = b.x - a.x;
+    const double by = b.y - a.y;
+    const double cx = c.x - a.x;
+    const double cy = c.y - a.y;
+    const double area = 2.0 * (bx * cy - by * cx);
+    const double x = (cy * (bx * bx + by * by) - by * (cx * cx + cy * cy)) / area;
+    const double y = (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / area;
+    const double radius = std::sqrt(x * x + y * y);
+    if (!std::isfinite(radius)) return false;
+    const double limit = flatness_ + largest_deviation * sensor_.range_stddev;
+    const auto near = [&](const BlockMean& mean) {
+      return std::abs(std::hypot(mean.x - a.x - x, mean.y - a.y - y) - radius) <= limit;
+    };
+    return std::all_of(before.begin(), before.end(), near) &&
+           std::all_of(behind.begin(), behind.end(), near);
+  }
+
+  [[nodiscard]] double length(const Segment& segment) const {
+    return std::hypot(points_.x[segment.end - 1] - points_.x[segment.begin],
+                      points_.y[segment.end - 1] - points_.y[segment.begin]);
+  }
+
+  [[nodiscard]] bool circle_explains(const Segment& segment, double chi_square_of_lines) const {
+    const PointsView own = view(segment);
+    if (own.size() <= 3) return false;
+    const auto circle = fit_circle(own, sensor_);
+    if (!circle || covered_angle(*circle, own) < smallest_angle) return false;
+    const double freedom = static_cast<double>(own.size()) - 3.0;
+    const double chi_square = quoin::chi_square(*circle, own, sensor_, floor_);
+    return chi_square <= freedom + largest_surplus * std::sqrt(2.0 * freedom) &&
+           chi_square <= chi_square_of_lines + clearly_better;
+  }
+
+  [[nodiscard]] double chi_square_of(const Piece& piece) const {
+    if (!piece.round) return chi_square_of_line(piece.segment);
+    const PointsView own = view(piece.segment);
+    const auto circle = fit_circle(own, sensor_);
+    return circle ? quoin::chi_square(*circle, own, sensor_, floor_) : 0.0;
+  }
+
+  [[nodiscard]] double chi_square_of_line(const Segment& segment) const {
+    const PointsView own = view(segment);
+    const OrthogonalLine fit = fit_orthogonal(own, PointWeights::equal);
+    if (!fit.ok()) return 0.0;
+    const WeightVariances variances(sensor_);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const double distance = fit.line.distance(own.x[i], own.y[i]);
+      const double along = fit.line.along(own.x[i], own.y[i]);
+      const double cosine = fit.line.normal_x * own.cosine[i] + fit.line.normal_y * own.sine[i];
+      sum += distance * distance /
+             (variances.range * cosine * cosine + variances.bearing * along * along + floor_);
+    }
+    return sum;
+  }
+
+  const PointsView& points_;
+  const SensorModel& sensor_;
+  const Tolerance& tolerance_;
+  double flatness_;
+  double floor_;  // [m^2]
+};
+
+void make_round(const PointsView& points, Piece& piece) {
+  piece.blocks = BlockMeans(points, piece.segment);
+  piece.round = true;
+  piece.line.reset();
+}
+
+}  // namespace
+
+void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
+               double flatness, std::vector<Piece>& pieces) {
+  const ArcFinder finder(points, sensor, tolerance, flatness);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    pieces[i].blocks = BlockMeans(points, pieces[i].segment);
+    if (kept > 0 && pieces[i].joined && finder.are_arc(pieces[kept - 1], pieces[i])) {
+      pieces[kept - 1].segment.end = pieces[i].segment.end;
+      make_round(points, pieces[kept - 1]);
+      continue;
+    }
+    pieces[kept] = pieces[i];
+    if (finder.is_arc(pieces[kept])) make_round(points, pieces[kept]);
+    ++kept;
+  }
+  pieces.resize(kept);
+}
+
+}  // namespace quoin

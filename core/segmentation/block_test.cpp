@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/block_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fitting/orthogonal.hpp"
+#include "core/sensor/multiversion.hpp"
+
+namespace quoin {
+namespace {
+
+constexpr std::size_t many_points = 32;
+constexpr std::size_t few_blocks = 4;
+/// Of chi square with two degrees of freedom less than there are blocks.
+struct Limits {
+  double many, few;
+};
+constexpr Limits limits_of_long{22.458, 13.816};  // exceeded once in 1000 times
+constexpr Limits limits_of_short{16.812, 9.210};  // once in 100 times: clutter is short
+constexpr double largest_bow = 0.01;              // of a wall, over its length
+
+std::size_t block_count(std::size_t points) {
+  return points >= many_points ? most_blocks : std::min(points, few_blocks);
+}
+
+QUOIN_MULTIVERSION
+void add_blocks(const double* __restrict x, const double* __restrict y, std::size_t count,
+                std::size_t blocks, BlockMean* out) {
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t begin = count * b / blocks;
+    const std::size_t end = count * (b + 1) / blocks;
+    double sum_x = 0.0;
+    double sum_y = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum_x += x[i];
+      sum_y += y[i];
+    }
+    const auto weight = static_cast<double>(end - begin);
+    out[b] = {sum_x / weight, sum_y / weight, weight};
+  }
+}
+
+}  // namespace
+
+BlockMeans::BlockMeans(const PointsView& points, const Segment& segment)
+    : count_(block_count(segment.size())) {
+  add_blocks(&points.x[segment.begin], &points.y[segment.begin], segment.size(), count_,
+             means_.data());
+  add_up();
+}
+
+BlockMeans::BlockMeans(const PointsView& points, std::span<const std::size_t> indices)
+    : count_(block_count(indices.size())) {
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    BlockMean& mean = means_.at(k * count_ / indices.size());
+    mean.weight += 1.0;
+    mean.x += (points.x[indices[k]] - mean.x) / mean.weight;
+    mean.y += (points.y[indices[k]] - mean.y) / mean.weight;
+  }
+  add_up();
+}
+
+void BlockMeans::add_up() {
+  for (const BlockMean& mean : means()) moments_.add(mean.x, mean.y, mean.weight);
+}
+
+BlockTest test_blocks(const BlockMeans& blocks, const SensorModel& sensor, double flatness) {
+  BlockTest test;
+  const std::span<const BlockMean> means = blocks.means();
+  const OrthogonalLine fit = orthogonal_line(blocks.moments());
+  test.line = fit.line;
+  if (!fit.ok() || blocks.moments().weight <= few_blocks) return test;
+
+  double farthest = 0.0;
+  for (const BlockMean& mean : means) {
+    farthest = std::max(farthest, std::abs(fit.line.distance(mean.x, mean.y)));
+  }
+  const double first = fit.line.along(means.front().x, means.front().y);
+  const double last = fit.line.along(means.back().x, means.back().y);
+  const double length = std::abs(last - first);
+  if (farthest <= std::min(flatness, largest_bow * length)) return test;
+
+  double chi_square = 0.0;
+  for (const BlockMean& mean : means) {
+    const double distance = fit.line.distance(mean.x, mean.y);
+    const double along = fit.line.along(mean.x, mean.y);
+    const double range = fit.line.offset * sensor.range_stddev;
+    const double bearing = along * sensor.bearing_stddev;
+    const double variance = range * range / (mean.x * mean.x + mean.y * mean.y) + bearing * bearing;
+    chi_square += mean.weight * distance * distance / variance;
+  }
+  const Limits& limits = length < short_wall ? limits_of_short : limits_of_long;
+  test.crooked = chi_square > (means.size() == most_blocks ? limits.many : limits.few);
+  return test;
+}
+
+}  // namespace quoin

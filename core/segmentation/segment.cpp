@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/segment.hpp"
+
+#include <algorithm>
+
+namespace quoin {
+namespace {
+
+/// `moved` holds the ascending indices; `memory` is for work.
+void move_behind(const std::vector<std::size_t>& moved, std::vector<double>& values,
+                 std::vector<double>& memory) {
+  memory.clear();
+  for (const std::size_t i : moved) memory.push_back(values[i]);
+  erase_at<double>(moved, values);
+  values.insert(values.end(), memory.begin(), memory.end());
+}
+
+}  // namespace
+
+void set_aside(Points& points, Segmentation& found) {
+  if (found.foreign.empty()) return;
+  std::vector<double> memory;
+  for (std::vector<double>* values : {&points.range, &points.bearing, &points.inverse_range,
+                                      &points.cosine, &points.sine, &points.x, &points.y}) {
+    move_behind(found.foreign, *values, memory);
+  }
+  const auto moved_before = [&](std::size_t i) {
+    return static_cast<std::size_t>(
+        std::lower_bound(found.foreign.begin(), found.foreign.end(), i) - found.foreign.begin());
+  };
+  for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
+    for (Segment& run : *runs) {
+      run.begin -= moved_before(run.begin);
+      run.end -= moved_before(run.end);
+    }
+  }
+  const std::size_t first = points.size() - found.foreign.size();
+  for (std::size_t k = 0; k < found.foreign.size(); ++k) found.foreign[k] = first + k;
+}
+
+}  // namespace quoin

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segmentation/strays.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/sensor/multiversion.hpp"
+
+namespace quoin {
+namespace {
+
+constexpr int fewest_equal = 8;
+// By so many standard deviations must the range of a flat wall vary over a run.
+constexpr double deviations_of_variation = 4.0;
+
+constexpr std::size_t sampled_triples = 128;
+constexpr std::size_t fewest_triples = 16;
+constexpr double median_of_normal = 0.6744897501960817;  // of the absolute value, sigma 1
+
+QUOIN_MULTIVERSION
+void count_equal(const double* values, std::size_t count, std::int64_t& out) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 1; i < count; ++i) sum += values[i] == values[i - 1] ? 1 : 0;
+  out = sum;
+}
+
+/// How far the ranges of a flat wall differ at least when it is seen between these points, its
+/// nearest point in the middle [m].
+double variation_of_wall(const PointsView& points, const Segment& run) {
+  const std::size_t last = run.end - 1;
+  const double cosine =
+      points.cosine[run.begin] * points.cosine[last] + points.sine[run.begin] * points.sine[last];
+  const double cosine_of_half = std::sqrt(0.5 * (1.0 + std::min(cosine, 1.0)));
+  return points.range[run.begin] * (1.0 - cosine_of_half);
+}
+
+}  // namespace
+
+void find_fill(const PointsView& points, const SensorModel& sensor,
+               std::vector<std::size_t>& fill) {
+  const std::span<const double> range = points.range;
+  std::int64_t equal = 0;
+  count_equal(range.data(), range.size(), equal);
+  if (equal + 1 < fewest_equal) return;
+
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin < range.size();) {
+    std::size_t end = begin + 1;
+    while (end < range.size() && range[end] == range[begin]) ++end;
+    if (end - begin >= std::size_t{fewest_equal} &&
+        variation_of_wall(points, {begin, end}) > deviations_of_variation * sensor.range_stddev) {
+      values.push_back(range[begin]);
+    }
+    begin = end;
+  }
+  if (values.empty()) return;
+  for (std::size_t i = 0; i < range.size(); ++i) {
+    if (std::find(values.begin(), values.end(), range[i]) != values.end()) fill.push_back(i);
+  }
+}
+
+void pass_over_strays(const CoarsePoints& points, const BreakpointDetector& breakpoints,
+                      std::size_t most, std::vector<Segment>& clusters,
+                      std::vector<std::size_t>& strays) {
+  std::size_t kept = 0;  // clusters, of points that are left
+  std::size_t k = 0;
+  while (k < clusters.size()) {
+    Segment surface = clusters[k];
+    const std::size_t before = strays.size();
+    while (true) {
+      const std::size_t on_surface = surface.size() - (strays.size() - before);
+      std::size_t next = k + 1;
+      std::size_t passed = 0;
+      bool goes_on = false;
+      while (next + 1 < clusters.size() && !goes_on) {
+        passed += clusters[next].size();
+        // Else the surface is the stray.
+        if (passed > most || passed >= on_surface) break;
+        ++next;
+        goes_on = breakpoints.connected(points, surface.end - 1, clusters[next].begin);
+      }
+      if (!goes_on) break;
+      for (std::size_t i = surface.end; i < clusters[next].begin; ++i) strays.push_back(i);
+      surface.end = clusters[next].end;
+      k = next;
+    }
+    clusters[kept++] = {surface.begin - before, surface.end - strays.size()};
+    ++k;
+  }
+  clusters.resize(kept);
+}
+
+double range_noise(const PointsView& points) {
+  if (points.size() < fewest_triples + 2) return 0.0;
+  std::array<double, sampled_triples> squares{};
+  const std::size_t available = points.size() - 2;
+  const std::size_t count = std::min(available, sampled_triples);
+  const auto sine_between = [&](std::size_t i, std::size_t j) {
+    return points.cosine[i] * points.sine[j] - points.sine[i] * points.cosine[j];
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = 1 + k * available / count;
+    // A cos + B sin of three bearings is linear with these weights.
+    const double first = sine_between(i, i + 1);
+    const double last = sine_between(i - 1, i);
+    const double middle = sine_between(i - 1, i + 1);
+    const double error = points.inverse_range[i - 1] * first + points.inverse_range[i + 1] * last -
+                         points.inverse_range[i] * middle;
+    const double scaled = error * points.range[i] * points.range[i];
+    const double weights = middle * middle + first * first + last * last;
+    squares[k] = weights > 0.0 ? scaled * scaled / weights : 0.0;
+  }
+  double* const median = squares.data() + count / 2;
+  std::nth_element(squares.data(), median, squares.data() + count);
+  return std::sqrt(*median) / median_of_normal;
+}
+
+}  // namespace quoin
