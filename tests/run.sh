@@ -4,30 +4,31 @@
 #
 # Installs what is missing, builds, and runs every test through CTest: the release build with everything, then all that
 # starts no processes under AddressSanitizer and UndefinedBehaviorSanitizer, what has threads under ThreadSanitizer, and
-# a short run of the fuzz targets; the format of the sources, and with --tidy clang-tidy over them. What mostly waits runs beside what compiles.
+# a short run of the fuzz targets; the format of the sources, and clang-tidy over them. What mostly waits runs beside what
+# compiles.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 usage() {
   cat <<'TEXT'
-usage: tests/run.sh [--build-only] [--no-sanitizers] [--no-fuzzing]
+usage: tests/run.sh [--build-only] [--no-sanitizers] [--no-fuzzing] [--no-tidy]
   --build-only      install and build the release tree, run nothing
   --no-sanitizers   leave out the builds with sanitizers
   --no-fuzzing      leave out the fuzz targets, which need clang++
-  --tidy            run clang-tidy over the product's sources, too, which takes some ten minutes
+  --no-tidy         leave out clang-tidy, which takes some eight minutes
 TEXT
 }
 build_only=false
 sanitizers=true
 fuzzing=true
-tidy=false
+tidy=true
 for argument in "$@"; do
   case $argument in
     --build-only) build_only=true ;;
     --no-sanitizers) sanitizers=false ;;
     --no-fuzzing) fuzzing=false ;;
-    --tidy) tidy=true ;;
+    --no-tidy) tidy=false ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -97,10 +98,6 @@ if $sanitizers; then
   cmake --preset tsan
   nice cmake --build --preset tsan -j "$jobs" --target thread_tests
 fi
-if $tidy; then
-  step "clang-tidy"
-  nice tests/style.sh tidy
-fi
 finish "integration tests"
 finish "soak"
 
@@ -119,6 +116,10 @@ in_background "soak of kinds with several ports" tests/soak/run.sh --minutes 3 -
 if $fuzzing; then
   step "fuzz targets"
   tests/fuzz/run.sh
+fi
+if $tidy; then
+  step "clang-tidy"
+  nice tests/style.sh tidy
 fi
 finish "soak of kinds with several ports"
 
