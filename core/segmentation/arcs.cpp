@@ -35,14 +35,15 @@ class ArcFinder {
         floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
 
   /// Whether the piece alone is bent like a circle.
-  [[nodiscard]] bool is_arc(const Piece& piece) const {
-    return test_blocks(piece.blocks, sensor_, flatness_).crooked &&
+  [[nodiscard]] bool is_arc(const Piece& piece, const BlockMeans& blocks) const {
+    return test_blocks(blocks, sensor_, flatness_).crooked &&
            circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
   }
 
   /// Whether both are of one circle.
-  [[nodiscard]] bool are_arc(const Piece& first, const Piece& second) const {
-    if (!may_be_arc(first, second) || !are_means_on_circle(first, second)) {
+  [[nodiscard]] bool are_arc(const Piece& first, const BlockMeans& blocks_of_first,
+                             const Piece& second, const BlockMeans& blocks_of_second) const {
+    if (!may_be_arc(first, second) || !are_means_on_circle(blocks_of_first, blocks_of_second)) {
       return false;
     }
     const Segment both{first.segment.begin, second.segment.end};
@@ -71,9 +72,9 @@ class ArcFinder {
 
   /// Another cheap one: whether the means of blocks are near the circle through the first, the last
   /// and one between.
-  [[nodiscard]] bool are_means_on_circle(const Piece& first, const Piece& second) const {
-    const std::span<const BlockMean> before = first.blocks.means();
-    const std::span<const BlockMean> behind = second.blocks.means();
+  [[nodiscard]] bool are_means_on_circle(const BlockMeans& first, const BlockMeans& second) const {
+    const std::span<const BlockMean> before = first.means();
+    const std::span<const BlockMean> behind = second.means();
     const BlockMean& a = before.front();
     const BlockMean& b = before.size() > behind.size() ? before.back() : behind.front();
     const BlockMean& c = behind.back();
@@ -141,8 +142,7 @@ class ArcFinder {
   double floor_;  // [m^2]
 };
 
-void make_round(const PointsView& points, Piece& piece) {
-  piece.blocks = BlockMeans(points, piece.segment);
+void make_round(Piece& piece) {
   piece.round = true;
   piece.line.reset();
 }
@@ -150,18 +150,22 @@ void make_round(const PointsView& points, Piece& piece) {
 }  // namespace
 
 void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
-               double flatness, std::vector<Piece>& pieces) {
+               double flatness, std::vector<Piece>& pieces, std::vector<BlockMeans>& blocks) {
   const ArcFinder finder(points, sensor, tolerance, flatness);
+  blocks.clear();
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    pieces[i].blocks = BlockMeans(points, pieces[i].segment);
-    if (kept > 0 && pieces[i].joined && finder.are_arc(pieces[kept - 1], pieces[i])) {
-      pieces[kept - 1].segment.end = pieces[i].segment.end;
-      make_round(points, pieces[kept - 1]);
+  for (const Piece& piece : pieces) {
+    const BlockMeans own(points, piece.segment);
+    Piece* const before = kept > 0 && piece.joined ? &pieces[kept - 1] : nullptr;
+    if (before != nullptr && finder.are_arc(*before, blocks.back(), piece, own)) {
+      before->segment.end = piece.segment.end;
+      make_round(*before);
+      blocks.back() = BlockMeans(points, before->segment);
       continue;
     }
-    pieces[kept] = pieces[i];
-    if (finder.is_arc(pieces[kept])) make_round(points, pieces[kept]);
+    pieces[kept] = piece;
+    if (finder.is_arc(piece, own)) make_round(pieces[kept]);
+    blocks.push_back(own);
     ++kept;
   }
   pieces.resize(kept);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/segmentation/block_test.hpp"
 #include "core/segmentation/pieces.hpp"
 #include "core/segmentation/tolerance.hpp"
 #include "core/sensor/points.hpp"
@@ -11,8 +12,9 @@
 namespace quoin {
 
 /// Unites neighbouring pieces of one round thing and marks them as round: a circle explains their
-/// points and lines do not explain them better. The pieces have been fitted.
+/// points and lines do not explain them better. The pieces have been fitted. `blocks` becomes the
+/// means of each.
 void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
-               double flatness, std::vector<Piece>& pieces);
+               double flatness, std::vector<Piece>& pieces, std::vector<BlockMeans>& blocks);
 
 }  // namespace quoin

@@ -8,7 +8,6 @@
 
 #include "core/fitting/point_sums.hpp"
 #include "core/geometry/line.hpp"
-#include "core/segmentation/block_test.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/tolerance.hpp"
 #include "core/sensor/points.hpp"
@@ -21,7 +20,6 @@ struct Piece {
   bool joined = false;  ///< to the piece before it: no break of the surface between them
   Moments moments{};    ///< of the inner points, with the weights 1 / range^2
   std::optional<NormalLine> line{};  ///< algebraic, cheap; both are filled by `fit_pieces`
-  BlockMeans blocks{};               ///< of the points, filled by `find_arcs`
   bool round = false;                ///< no line, but an arc
 };
 

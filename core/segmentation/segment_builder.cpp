@@ -191,9 +191,9 @@ void SegmentBuilder::finish(Segmentation& found) {
   if (parameters_.merge) {
     merge_collinear(points_, tolerance_, pieces_);
     drop_small(min_points, min_points, pieces_);
-    find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_);
+    find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_, blocks_);
     left_out_.clear();
-    const bool changed = straightener_.run(points_, sensor_, pieces_, left_out_);
+    const bool changed = straightener_.run(points_, sensor_, blocks_, pieces_, left_out_);
     if (!left_out_.empty()) {
       std::sort(left_out_.begin(), left_out_.end());
       left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());

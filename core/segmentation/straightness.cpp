@@ -237,24 +237,26 @@ bool Straightener::grow(const PointsView& points) {
 }
 
 bool Straightener::run(const PointsView& points, const SensorModel& sensor,
-                       std::vector<Piece>& pieces, std::vector<std::size_t>& foreign) {
+                       std::span<const BlockMeans> blocks, std::vector<Piece>& pieces,
+                       std::vector<std::size_t>& foreign) {
   sensor_ = sensor;
   tolerance_ = Tolerance(parameters_, sensor, points);
   walls_.clear();
   outside_.clear();
   bool changed = false;
-  for (const Piece& piece : pieces) {
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Piece& piece = pieces[k];
     if (piece.round) {
       add(piece, {}, {});
       continue;
     }
-    const BlockTest test = test_blocks(piece.blocks, sensor, parameters_.flatness);
+    const BlockTest test = test_blocks(blocks[k], sensor, parameters_.flatness);
     const PointsView own = points.subview(piece.segment.begin, piece.segment.end);
     if (test.crooked || farthest_from(test.line, own, tolerance_).beyond()) {
       split(points, piece);
       changed = true;
     } else {
-      add(piece, piece.blocks.moments(), test.line);
+      add(piece, blocks[k].moments(), test.line);
     }
   }
 

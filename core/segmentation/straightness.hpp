@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "core/segmentation/block_test.hpp"
 #include "core/segmentation/pieces.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/tolerance.hpp"
@@ -23,8 +25,8 @@ class Straightener {
   /// behind something. Adds to `foreign` the points inside pieces that are not of their walls, in
   /// no order. `find_arcs` has been there before. Returns whether it changed anything; the pieces
   /// that it changed have no line.
-  bool run(const PointsView& points, const SensorModel& sensor, std::vector<Piece>& pieces,
-           std::vector<std::size_t>& foreign);
+  bool run(const PointsView& points, const SensorModel& sensor, std::span<const BlockMeans> blocks,
+           std::vector<Piece>& pieces, std::vector<std::size_t>& foreign);
 
  private:
   /// A piece with the moments that tell whether it is one line with another.

@@ -16,7 +16,7 @@ constexpr int fewest_equal = 8;
 // By so many standard deviations must the range of a flat wall vary over a run.
 constexpr double deviations_of_variation = 4.0;
 
-constexpr std::size_t sampled_triples = 128;
+constexpr std::size_t sampled_triples = 64;
 constexpr std::size_t fewest_triples = 16;
 constexpr double median_of_normal = 0.6744897501960817;  // of the absolute value, sigma 1
 
