@@ -30,7 +30,7 @@ void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
       failures_.push_back(fit.failure);
       continue;
     }
-    admit_misfit(fit.estimate, chi_square(fit.estimate.line, points, fitting), points.size());
+    scale_to_residuals(fit.estimate, chi_square(fit.estimate.line, points, fitting), points.size());
     lines_.push_back(line_segment(fit.estimate, fit.normal, points));
     fitted_.push_back(segment);
   }

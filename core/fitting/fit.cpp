@@ -61,7 +61,7 @@ double chi_square(const Line& line, const PointsView& points, const SensorModel&
   return sum;
 }
 
-double admit_misfit(LineEstimate& estimate, double chi_square, std::size_t points) {
+double scale_to_residuals(LineEstimate& estimate, double chi_square, std::size_t points) {
   if (points < 3) return 1.0;
   const double freedom = static_cast<double>(points - 2);
   // Wilson and Hilferty 1931: the cube root of chi square over its degrees of freedom is normal.

@@ -115,6 +115,6 @@ using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
 /// Scales the covariance by the reduced chi square of so many points where that is larger than
 /// noise gives once in 1000 times: an uneven wall, or a sensor with more noise than its model says.
 /// Returns the factor, 1 when nothing was done.
-double admit_misfit(LineEstimate& estimate, double chi_square, std::size_t points);
+double scale_to_residuals(LineEstimate& estimate, double chi_square, std::size_t points);
 
 }  // namespace quoin

@@ -17,7 +17,7 @@ namespace {
 constexpr double smallest_angle = 0.26;  // [rad] 15 deg about the centre
 // Chi square may be so many of its standard deviations above what is expected.
 constexpr double largest_surplus = 4.0;
-// So much must the chi square of lines be below that of a circle. What cannot be told is no corner.
+// So much must the chi square of lines be below that of a circle. What is uncertain is no corner.
 constexpr double clearly_better = 10.0;
 // A bow of more tolerances would have been split.
 constexpr double largest_bow = 3.0;

@@ -29,7 +29,7 @@ class Straightener {
            std::vector<Piece>& pieces, std::vector<std::size_t>& foreign);
 
  private:
-  /// A piece with the moments that tell whether it is one line with another.
+  /// A piece with the moments that show whether it is one line with another.
   struct Wall {
     Piece piece;
     Moments moments;

@@ -133,7 +133,7 @@ int run(const ApplyOptions& options) {
   const std::string text = read_deployment(options.file);
   const Deployment deployment = parse_deployment(text, options.file);
   const std::vector<std::string> hosts = hosts_to_change(deployment, options.host);
-  // One host goes on by itself, several have to be told. Made before DDS starts its threads.
+  // One host goes on by itself, several have to be instructed. Made before DDS starts its threads.
   const auto signals = hosts.size() > 1 ? std::make_unique<Signals>() : nullptr;
   const std::function<bool()> interrupted = [&, came = false]() mutable {
     came = came || (signals && signals->take() > 0);

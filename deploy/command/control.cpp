@@ -65,7 +65,7 @@ void print(const msg::ControlReply& reply) {
 
 int run(const ControlOptions& options, msg::ControlAction action) {
   const Deployment deployment = deployment_to_reach(options.network, options.file);
-  // A name that is none is told at once.
+  // A name that is none is reported at once.
   if (!options.file.empty()) (void)deployment.service(options.service);
   runtime::Participant participant(
       runtime::participant_config(deployment, "quoin_control", operator_identity));

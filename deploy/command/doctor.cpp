@@ -59,7 +59,7 @@ Checks check_disks(const DoctorOptions& options) {
   return checks;
 }
 
-/// Processes that live at the end of the listening, and what they told.
+/// Processes that live at the end of the listening, and what they reported.
 std::vector<HeardProcess> listen(const Deployment& deployment, bool all_namespaces, double wait) {
   HeartbeatListener listener(deployment, "quoin_doctor", all_namespaces);
   listener.listen(wait, [] { return false; });

@@ -51,7 +51,8 @@ std::string printed(const topics::TopicType& type, const topics::RawMessage& mes
               : topics::to_text(type.dds_type, fields);
 }
 
-/// Tells what an observer missed: it never slows a writer down, so a burst may be too much for it.
+/// Reports what an observer missed: it never slows a writer down, so a burst may be too much for
+/// it.
 class Missed {
  public:
   /// `from_the_start`: it was there before the first message.

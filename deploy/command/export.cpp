@@ -71,7 +71,7 @@ void tell_of_remains(const std::filesystem::path& folder, const std::string& ste
   }
 }
 
-/// Addresses tell where discovery servers run: they are exported on their hosts.
+/// Addresses say where discovery servers run: they are exported on their hosts.
 bool serves_here(const Deployment& deployment) {
   if (deployment.network.discovery != Discovery::server) return false;
   try {

@@ -22,7 +22,7 @@ std::string where(const HeardProcess& process) {
 }  // namespace
 
 Checks check_clocks(const std::vector<HeardProcess>& processes, const std::string& own_host) {
-  // The least delayed heartbeat of a host tells most of its clock.
+  // The least delayed heartbeat of a host shows most of its clock.
   std::map<std::string, std::int64_t> apart;
   for (const HeardProcess& process : processes) {
     if (process.heard == 0 || process.host == own_host) continue;
@@ -72,7 +72,7 @@ Checks check_doubles(const std::vector<HeardProcess>& processes) {
 }
 
 Checks check_qos(const std::vector<HeardProcess>& processes) {
-  // Both sides tell of a mismatch, in the same words.
+  // Both sides report a mismatch, in the same words.
   std::set<std::string> texts;
   for (const HeardProcess& process : processes) {
     texts.insert(process.incompatible_qos.begin(), process.incompatible_qos.end());

@@ -17,7 +17,7 @@ struct StaleFile {
   bool ours = false;  ///< this user may remove it
 };
 
-/// What killed Fast DDS programs left in `folder` (/dev/shm), as far as `processes` (/proc) tells.
+/// What killed Fast DDS programs left in `folder` (/dev/shm), as far as `processes` (/proc) shows.
 /// Files of other users are left out unless this is root, who alone sees what all processes use.
 [[nodiscard]] std::vector<StaleFile> stale_files(const std::filesystem::path& folder,
                                                  const std::filesystem::path& processes);

@@ -42,7 +42,7 @@ struct Work {
   }
 };
 
-/// Tells of two rounds of jobs as of one.
+/// Reports two rounds of jobs as one.
 class Progress {
  public:
   Progress(const std::vector<Part>& parts,

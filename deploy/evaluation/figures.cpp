@@ -9,12 +9,12 @@ namespace quoin::deploy {
 
 namespace {
 
-/// Calls `tell` with the name and the count of each failure that occurred.
+/// Calls `report` with the name and the count of each failure that occurred.
 template <class Function>
-void for_each_failure(const FailureCounts& failures, const Function& tell) {
+void for_each_failure(const FailureCounts& failures, const Function& report) {
   for (const auto& [failure, name] : EnumNames<FitFailure>::names) {
     const std::size_t count = failures[static_cast<std::size_t>(failure)];
-    if (failure != FitFailure::none && count > 0) tell(std::string(name), count);
+    if (failure != FitFailure::none && count > 0) report(std::string(name), count);
   }
 }
 

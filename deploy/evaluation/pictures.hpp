@@ -11,7 +11,7 @@
 namespace quoin::deploy {
 
 [[nodiscard]] DrawnPoint drawn(const Eigen::Vector2d& point);
-/// `mahalanobis_squared` tells which ellipse: 1 is one sigma.
+/// `mahalanobis_squared` says which ellipse: 1 is one sigma.
 [[nodiscard]] DrawnCorner drawn(const CornerEstimate& corner, double mahalanobis_squared,
                                 std::size_t series = 0);
 

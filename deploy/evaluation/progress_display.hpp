@@ -11,7 +11,7 @@
 
 namespace quoin::deploy {
 
-/// Tells how far an evaluation is: a bar that is redrawn in place on a terminal, elsewhere a line
+/// Shows how far an evaluation is: a bar that is redrawn in place on a terminal, elsewhere a line
 /// for each section that is complete.
 class ProgressDisplay {
  public:

@@ -96,7 +96,7 @@ class ScanFilesSection : public Section {
   void write_html(HtmlPage& page) const override {
     page.paragraph("Recorded scans, of which the truth is not known. The sensor model is " +
                    noise_text(sensor_) +
-                   "; a reduced chi-square above 1 tells that the walls are less straight or the "
+                   "; a reduced chi-square above 1 means that the walls are less straight or the "
                    "noise is larger than that, below 1 the opposite.");
     for (std::size_t file = 0; file < files_.size(); ++file) {
       page.heading(3, files_[file].name);

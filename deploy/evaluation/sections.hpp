@@ -17,7 +17,7 @@ namespace quoin::deploy {
 /// Rows of a table for the terminal; the first is its head, the first column has the names.
 using SummaryTable = std::vector<std::vector<std::string>>;
 
-/// One part of the report: what is computed, and how it is told.
+/// One part of the report: what is computed, and how it is shown.
 class Section {
  public:
   virtual ~Section() = default;

@@ -59,7 +59,7 @@ std::string device_lines(const ExportedProcess& process) {
 }
 
 std::string network_lines(const ExportPlan& plan, const ExportedProcess& process) {
-  // Netlink tells of the interfaces, Unix sockets lead to systemd itself.
+  // Netlink lists the interfaces, Unix sockets lead to systemd itself.
   std::string text = "RestrictAddressFamilies=AF_INET AF_UNIX AF_NETLINK";
   if (process.own_network) text += " AF_INET6";
   text += "\n";

@@ -25,7 +25,7 @@ void Comparison::add(std::size_t service, const ScanKey& scan, CornerResult resu
   Tally& tally = tallies_[service];
   if (tally.newest && scan <= *tally.newest) return;  // the same again
   tally.newest = scan;
-  if (settled_through_ && scan <= *settled_through_) {
+  if (complete_through_ && scan <= *complete_through_) {
     if (tally.missing > 0) --tally.missing;  // late, but there
     count(tally, scan, result);
   } else if (open_.contains(scan) || !full()) {
@@ -33,7 +33,7 @@ void Comparison::add(std::size_t service, const ScanKey& scan, CornerResult resu
     compare(service, scan, std::move(result));
   }
   while (!open_.empty() &&
-         (open_.size() > most_open || settled(open_.begin()->first, open_.begin()->second))) {
+         (open_.size() > most_open || is_complete(open_.begin()->first, open_.begin()->second))) {
     settle_oldest();
   }
 }
@@ -75,7 +75,7 @@ void Comparison::compare(Tally& tally, const CornerResult& reference,
   }
 }
 
-bool Comparison::settled(const ScanKey& scan, const OpenScan& results) const {
+bool Comparison::is_complete(const ScanKey& scan, const OpenScan& results) const {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const bool passed_by = tallies_[i].newest && *tallies_[i].newest > scan;
     if (!results[i] && !passed_by) return false;
@@ -90,7 +90,7 @@ void Comparison::settle_oldest() {
     const bool listened = !tally.first || *tally.first < scan;
     if (!results[i] && listened) ++tally.missing;
   }
-  settled_through_ = scan;
+  complete_through_ = scan;
   open_.erase(open_.begin());
 }
 

@@ -79,7 +79,7 @@ class Comparison {
   static void count(Tally& tally, const ScanKey& scan, const CornerResult& result);
   void compare(std::size_t service, const ScanKey& scan, CornerResult result);
   void compare(Tally& tally, const CornerResult& reference, const CornerResult& own) const;
-  [[nodiscard]] bool settled(const ScanKey& scan, const OpenScan& results) const;
+  [[nodiscard]] bool is_complete(const ScanKey& scan, const OpenScan& results) const;
   void settle_oldest();
 
   const std::size_t reference_;
@@ -87,7 +87,7 @@ class Comparison {
   const std::uint64_t most_scans_;
   std::vector<Tally> tallies_;
   std::map<ScanKey, OpenScan> open_;
-  std::optional<ScanKey> settled_through_;
+  std::optional<ScanKey> complete_through_;
   std::uint64_t opened_ = 0;
   bool closed_ = false;
 };

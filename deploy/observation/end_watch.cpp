@@ -112,7 +112,7 @@ EndFigures EndWatch::figures(const std::vector<SourceInstance>& instances) const
   count(accounting_.lost_by_site(), figures.lost);
   for (const SourceInstance& instance : instances) {
     if (instance.type != source_type_) continue;
-    figures.lost.at_end += instance.ledger.unsettled(sources(), ended_);
+    figures.lost.at_end += instance.ledger.unaccounted(sources(), ended_);
   }
   figures.lost.at_start += lost_at_start(instances);
   figures.scans_expected = figures.scans_delivered + figures.lost.sum();

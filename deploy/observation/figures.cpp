@@ -43,8 +43,8 @@ ServiceReport Incarnations::total() const {
   for (const auto& [key, count] : published_at_least_) {
     if (key.second != topic_) continue;
     const auto report = reports_.find(key.first);
-    const std::uint64_t told = report == reports_.end() ? 0 : report->second.published;
-    total.published += std::max(count, told) - told;
+    const std::uint64_t reported = report == reports_.end() ? 0 : report->second.published;
+    total.published += std::max(count, reported) - reported;
   }
   return total;
 }

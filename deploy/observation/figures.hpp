@@ -12,13 +12,13 @@
 
 namespace quoin::deploy {
 
-/// What a process has told of one topic.
+/// What a process has reported of one topic.
 struct OutputReport {
   std::uint64_t published = 0;
   std::uint64_t lost = 0;
 };
 
-/// What one process of a service has told of itself.
+/// What one process of a service has reported of itself.
 struct ServiceReport {
   std::string
       state;  ///< starting, active, finished, stopped or failed; what the supervisor knows else

@@ -21,7 +21,7 @@ namespace quoin::deploy {
 /// What a heartbeat says, in the terms of a report.
 [[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
 
-/// What one process told of itself.
+/// What one process reported of itself.
 struct HeardHeartbeats {
   msg::ServiceStatus newest;
   std::chrono::steady_clock::time_point last;  ///< when that was heard

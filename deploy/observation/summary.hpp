@@ -15,7 +15,7 @@ namespace quoin::deploy {
 /// interface: they may be added to, not changed.
 [[nodiscard]] nlohmann::ordered_json summary(const DeploymentFigures& figures);
 
-/// The part of it that tells of one service.
+/// The part of it about one service.
 [[nodiscard]] nlohmann::ordered_json service_summary(const ServiceFigures& service);
 
 }  // namespace quoin::deploy

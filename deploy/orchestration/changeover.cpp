@@ -30,7 +30,7 @@ std::vector<std::string> topics_of(const ServiceConfig& service) {
   return topics;
 }
 
-/// The plan with more readers to wait for, publishing only when told to.
+/// The plan with more readers to wait for, publishing only when instructed to.
 ProcessPlan held_plan(ProcessPlan plan, const std::map<std::string, int>& more_readers) {
   for (const auto& [service, count] : more_readers) {
     plan.arguments.insert(plan.arguments.end(),

@@ -7,7 +7,7 @@
 
 namespace quoin::deploy {
 
-/// 64-bit FNV-1a: tells whether two processes see the same text under one file name.
+/// 64-bit FNV-1a: shows whether two processes see the same text under one file name.
 [[nodiscard]] constexpr std::uint64_t checksum(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char character : text) {

@@ -43,7 +43,7 @@ Plan plan_elsewhere(const Deployment& running, const Deployment& wanted, const s
   return all;
 }
 
-/// Does one change after the other as it is told. Throws when it is told to withdraw.
+/// Does one change after the other as instructed. Throws when instructed to withdraw.
 void follow(const NextInstruction& next_instruction, Changeover& changeover) {
   for (bool begun = false;; begun = true) {
     const Instruction instruction = next_instruction(begun);

@@ -66,7 +66,7 @@ class Composition {
   std::unique_ptr<FrozenFile> previous_copy_;  // a process may just be about to read it
 };
 
-/// The plan as it is told to who asked for it.
+/// The plan as it is reported to who asked for it.
 [[nodiscard]] std::vector<msg::ControlStep> steps_of(const Plan& plan);
 
 }  // namespace quoin::deploy

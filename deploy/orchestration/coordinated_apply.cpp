@@ -49,7 +49,7 @@ class Concert {
         timeout_(request.wait()) {}
 
   std::vector<HostOutcome> apply(const std::vector<std::string>& hosts, const Deployment& wanted) {
-    request_.in_concert(hosts.size() > 1);
+    request_.coordinated(hosts.size() > 1);
     for (const std::string& host : hosts) {
       request_.service(supervisor_name(host));
       Part& part = parts_.emplace_back();
@@ -89,7 +89,7 @@ class Concert {
     const auto plan = part.reply.steps();
     part.reply = reply;
     part.ended = !reply.pending();
-    // The plan is told at first, and in the end with the scans.
+    // The plan is reported at first, and in the end with the scans.
     if (reply.steps().empty()) part.reply.steps(plan);
   }
 
@@ -102,12 +102,12 @@ class Concert {
       if (part.reply.service().empty()) return first_answer;
       return timeout_ + Seconds(10.0) + (alone ? time_to_change(part) : Seconds(0.0));
     };
-    const auto settled = [](const Part& part) { return part.ended || part.ready(); };
+    const auto is_done = [](const Part& part) { return part.ended || part.ready(); };
     const auto failed = [](const Part& part) { return part.ended && !part.reply.accepted(); };
-    while (!std::all_of(parts_.begin(), parts_.end(), settled) &&
+    while (!std::all_of(parts_.begin(), parts_.end(), is_done) &&
            std::none_of(parts_.begin(), parts_.end(), failed) && !interrupted_()) {
       for (Part& part : parts_) {
-        if (settled(part)) continue;
+        if (is_done(part)) continue;
         if (const auto reply = requester_.wait(part.number, from_now(Seconds(0.02)))) {
           take(part, *reply);
         } else if (requester_.now() - begin > timeout(part)) {
@@ -121,7 +121,7 @@ class Concert {
     return longest_change * static_cast<double>(1 + part.reply.steps().size());
   }
 
-  void tell(Part& part, msg::ControlAction action, const std::string& change) {
+  void instruct(Part& part, msg::ControlAction action, const std::string& change) {
     msg::ControlRequest instruction;
     instruction.service(supervisor_name(part.host));
     instruction.action(action);
@@ -134,7 +134,7 @@ class Concert {
     std::vector<Part*> waiting;
     for (Part& part : parts_) {
       if (part.ended) continue;
-      tell(part, action, "");
+      instruct(part, action, "");
       waiting.push_back(&part);
     }
     for (Part* part : waiting) {
@@ -164,7 +164,7 @@ class Concert {
   void change(ChangeAction action, const std::string& service) {
     for (Part& part : parts_) {
       if (part.silent) continue;  // it would hold up the others again
-      if (part.plans(action, service)) tell(part, msg::ControlAction::CONTROL_PROCEED, service);
+      if (part.plans(action, service)) instruct(part, msg::ControlAction::CONTROL_PROCEED, service);
     }
   }
 

@@ -11,7 +11,8 @@
 namespace quoin::deploy {
 
 /// Notices that a file has been changed or replaced by another of its name, as editors do, and is
-/// at rest again. It looks at the file rather than being told, which works on every file system.
+/// at rest again. It looks at the file rather than being notified, which works on every file
+/// system.
 class FileWatch {
  public:
   using Clock = std::chrono::steady_clock;

@@ -14,11 +14,11 @@ struct Instruction {
   std::string text;  ///< the service to change, or why to withdraw
 };
 
-/// The reason that a host gives which was told to withdraw: not its own.
+/// The reason that a host gives which was instructed to withdraw: not its own.
 inline constexpr const char* withdrawn =
     "withdrawn; another host is not ready, or quoin apply was interrupted";
 
-/// Waits for the next instruction; `begun` tells whether it is too late to withdraw.
+/// Waits for the next instruction; `begun` says whether it is too late to withdraw.
 using NextInstruction = std::function<Instruction(bool begun)>;
 
 }  // namespace quoin::deploy

@@ -23,7 +23,7 @@ inline constexpr const char* discovery_process = "discovery-servers";
 [[nodiscard]] bool serves_discovery(const Deployment& deployment);
 
 /// How to start the services of `deployment` that run on `host` (see host_to_run), and the
-/// discovery servers that have one of this host's addresses. `observers` tells how many readers
+/// discovery servers that have one of this host's addresses. `observers` says how many readers
 /// that are not in the deployment a service has to wait for, so that not even its first result is
 /// missed. The services read `copy` of the deployment file when there is one. Throws
 /// std::runtime_error when a program is not there, DeploymentError when a key is not.

@@ -41,7 +41,7 @@ Run::Run(const RunOptions& options, Callbacks callbacks)
                                    const std::string& text) { say(name + ": " + text); },
                    .was_active =
                        [this](const std::string& name) {
-                         // Of strangers nobody knows whether they are.
+                         // Of external services nobody knows whether they are.
                          return name == discovery_process || !monitor_.record().knows(name) ||
                                 monitor_.record().was_active(name);
                        }}),
@@ -154,7 +154,7 @@ ApplyOutcome Run::apply(ApplyRequest request, const std::function<void(const Pla
   return outcome;
 }
 
-// Tells that everything is ready, or that the change of `last` has been done, and waits.
+// Reports that everything is ready, or that the change of `last` has been done, and waits.
 Instruction Run::next_instruction(Dialogue& dialogue, bool begun, milliseconds timeout,
                                   std::optional<msg::ControlRequest>& last) {
   msg::ControlReply reply;
@@ -168,14 +168,14 @@ Instruction Run::next_instruction(Dialogue& dialogue, bool begun, milliseconds t
   const bool withdraw = came && last->action() == msg::ControlAction::CONTROL_WITHDRAW;
   if (begun && (!came || withdraw)) return {Instruction::Kind::finish, ""};
   if (supervisor_.stopping()) return {Instruction::Kind::withdraw, "the deployment is stopping"};
-  if (!came) return {Instruction::Kind::withdraw, "who asked for it did not tell to go on"};
+  if (!came) return {Instruction::Kind::withdraw, "the requester did not confirm"};
   if (withdraw) return {Instruction::Kind::withdraw, withdrawn};
   if (last->change().empty()) return {Instruction::Kind::finish, ""};
   return {Instruction::Kind::change, last->change()};
 }
 
 void Run::answer(const msg::ControlRequest& request) {
-  conducted_ = request.in_concert() ? &request : nullptr;
+  conducted_ = request.coordinated() ? &request : nullptr;
   const ApplyOutcome outcome = apply(apply_request(request), [&](const Plan& plan) {
     if (request.dry_run()) return;
     msg::ControlReply reply;

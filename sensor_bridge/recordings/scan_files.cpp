@@ -48,7 +48,7 @@ std::vector<std::filesystem::path> list_scan_files(const std::filesystem::path& 
 ScanFormat format_of(const std::filesystem::path& file) {
   const ScanFormat format = format_by_name(file.filename());
   if (format == ScanFormat::automatic) {
-    throw ScanFileError("cannot tell how scan file '" + file.string() +
+    throw ScanFileError("cannot find out how scan file '" + file.string() +
                         "' is written; set 'format' to carmen or csv");
   }
   return format;

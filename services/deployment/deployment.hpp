@@ -93,7 +93,7 @@ struct InputConfig {
 /// A topic that a service writes.
 struct OutputConfig {
   std::string type;   ///< of the table of topic types
-  std::string topic;  ///< <namespace>/<service>/<type>, or a stranger's own
+  std::string topic;  ///< <namespace>/<service>/<type>, or an external service's own
   std::string qos;    ///< preset: sensor, feature, state, lossless or best_effort
   Rate rate = Rate::per_input;
 
@@ -149,12 +149,12 @@ struct Deployment {
   [[nodiscard]] const ServiceConfig& service(std::string_view name) const;
 };
 
-/// What tells an instance of a service from all others: the name, or name@strength where there is
-/// a strength.
+/// What distinguishes an instance of a service from all others: the name, or name@strength where
+/// there is a strength.
 [[nodiscard]] std::string label(const ServiceConfig& service);
 
-/// What tells the process of a service from all others: its name in `processes:`, or the label of
-/// the service where it has one of its own.
+/// What distinguishes the process of a service from all others: its name in `processes:`, or the
+/// label of the service where it has one of its own.
 [[nodiscard]] std::string process_name(const ServiceConfig& service);
 
 /// A process, and the services that run in it in the order of the deployment.
@@ -197,7 +197,7 @@ class DeploymentError : public std::runtime_error {
 [[nodiscard]] NetworkConfig parse_network(const NetworkText& text);
 
 /// From the death of a discovery server to the next one at its address: when all have forgotten the
-/// dead one. A new server too soon would be taken for it, and not be told of those that it should
+/// dead one. A new server too soon would be taken for it, and not learn of those that it should
 /// know.
 [[nodiscard]] std::chrono::milliseconds discovery_pause(const NetworkConfig& network);
 

@@ -213,10 +213,10 @@ std::vector<std::vector<const ServiceConfig*>> Graph::cycles() const {
       return other->name == service.name;
     });
     if (on_path != path.end()) {
-      const bool told = std::any_of(on_path, path.end(), [&](const ServiceConfig* other) {
+      const bool reported = std::any_of(on_path, path.end(), [&](const ServiceConfig* other) {
         return in_cycle.contains(other->name);
       });
-      if (!told) cycles.emplace_back(on_path, path.end());
+      if (!reported) cycles.emplace_back(on_path, path.end());
       for (auto at = on_path; at != path.end(); ++at) in_cycle.insert((*at)->name);
       return;
     }

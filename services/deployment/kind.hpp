@@ -69,7 +69,7 @@ struct KindList {
   [[nodiscard]] const KindInfo* find(std::string_view name) const;
 };
 
-/// A stranger that writes to a topic without being a service of this project. Its output stands in
+/// A program that writes to a topic without being a service of this project. Its output stands in
 /// the deployment file.
 [[nodiscard]] const KindInfo& external_kind();
 

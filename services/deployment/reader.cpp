@@ -166,7 +166,8 @@ std::string read_deployment(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(file, "cannot be opened; check its permissions");
-  // One byte more than allowed tells too large from just fitting, whatever the size of the file.
+  // One byte more than allowed distinguishes too large from just fitting, whatever the size of the
+  // file.
   std::string text(largest_file + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) fail(file, "cannot be read");

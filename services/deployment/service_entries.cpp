@@ -39,7 +39,7 @@ class ServiceReader {
     // Of services whose kind is not known, too: others read what they publish.
     if (!draft_.config.external()) read_qos();
     if (draft_.config.info != nullptr) read_what_depends_on_the_kind(at);
-    // A source tells that it lives by its scans alone, which may be 100 ms apart.
+    // A source asserts its liveliness by its scans alone, which may be 100 ms apart.
     if (draft_.config.inputs.empty()) draft_.config.lease *= 5;
     if (lease_) read_lease(*lease_);
     return std::move(draft_);

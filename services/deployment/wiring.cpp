@@ -178,7 +178,7 @@ void expand_all(ServiceConfig& observer, const std::vector<DraftService>& drafts
   }
 }
 
-/// Either no service names a host, or each does: nobody could tell where the others shall run.
+/// Either no service names a host, or each does: it would be open where the others shall run.
 void check_hosts(const std::vector<DraftService>& drafts, Problems& problems) {
   const auto named = [](const DraftService& draft) { return !draft.config.host.empty(); };
   if (std::none_of(drafts.begin(), drafts.end(), named)) return;

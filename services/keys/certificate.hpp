@@ -62,7 +62,7 @@ struct KeyPair {
 };
 
 /// A new certificate authority on the elliptic curve P-256, signed by itself. `name` is its common
-/// name; participants tell authorities apart by it. Throws std::runtime_error, as all of these do.
+/// name; participants distinguish authorities by it. Throws std::runtime_error, as all of these do.
 [[nodiscard]] KeyPair make_authority(const std::string& name, const Validity& validity);
 
 /// A new identity with the common name `name`, signed by the authority.

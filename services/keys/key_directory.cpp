@@ -24,7 +24,7 @@ auto parse(const std::filesystem::path& file, Function make) {
   }
 }
 
-/// Participants tell authorities apart by name.
+/// Participants distinguish authorities by name.
 std::string new_authority_name() {
   static constexpr char digits[] = "0123456789abcdef";
   std::random_device random;

@@ -17,9 +17,9 @@ runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
                                                  const ParameterSettings& parameters) {
   const auto fit = Fitters::make<Fitter>(method, parameters);
   const std::string mode = Fitters::setting(method, parameters, "covariance");
-  const bool admits_misfit = mode == enum_name(CovarianceMode::propagated);
+  const bool scales = mode == enum_name(CovarianceMode::propagated);
   auto points = std::make_shared<Points>();
-  return [fit, mode, admits_misfit, points](const msg::Segments& in, msg::Lines& out) {
+  return [fit, mode, scales, points](const msg::Segments& in, msg::Lines& out) {
     if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
     const SensorModel sensor = topics::sensor_model(in.sensor_model());
     convert_ordered(in.bearings(), in.ranges(), *points);
@@ -32,9 +32,9 @@ runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
           points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
       FitResult result = fit(segment, sensor);
       if (result.ok()) {
-        const double misfit = chi_square(result.estimate.line, segment, sensor);
-        if (admits_misfit) admit_misfit(result.estimate, misfit, segment.size());
-        topics::append_line(result.estimate, segment, misfit, i, out);
+        const double residuals = chi_square(result.estimate.line, segment, sensor);
+        if (scales) scale_to_residuals(result.estimate, residuals, segment.size());
+        topics::append_line(result.estimate, segment, residuals, i, out);
       } else {
         topics::append_failure(result.failure, i, out);
       }

@@ -87,7 +87,7 @@ void encode(const T& message, RawMessage& raw) {
   raw.cdr.resize(encode(cdr_codec<T>(), &message, raw.cdr.data(), raw.cdr.size()));
 }
 
-/// The memory of `message` is reused. False when the bytes, which a stranger may have sent, are no
+/// The memory of `message` is reused. False when the bytes, which anybody may have sent, are no
 /// such message; then some of its fields may have been read.
 template <class T>
 [[nodiscard]] bool decode(const RawMessage& raw, T& message) {
@@ -95,7 +95,7 @@ template <class T>
 }
 
 /// The header that any of our messages on data topics begins with, without the rest. False when the
-/// bytes, which a stranger may have sent, are too few; those of another type may pass for a header.
+/// bytes, which anybody may have sent, are too few; those of another type may pass for a header.
 [[nodiscard]] bool read_header(const RawMessage& raw, msg::Header& header);
 
 }  // namespace quoin::topics

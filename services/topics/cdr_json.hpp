@@ -42,7 +42,7 @@ class CdrError : public std::runtime_error {
 };
 
 /// A message with all its fields under the names and in the order of the IDL. `cdr` is a message as
-/// it travels, with its encapsulation header; it may come from a stranger. A float becomes the
+/// it travels, with its encapsulation header; anybody may have sent it. A float becomes the
 /// number that prints as shortly as the float does; what JSON cannot express (infinite, not a
 /// number) becomes null; an enumeration becomes its name, or its number where the IDL has no name
 /// for it; a character becomes a string. Strings are copied as they are: dump them with

@@ -8,8 +8,8 @@
 
 namespace quoin::topics {
 
-/// What a message is accounted for as. Of a message without origins, as a stranger may send it, one
-/// with an empty name.
+/// What a message is accounted for as. Of a message without origins, as an external service may
+/// send it, one with an empty name.
 [[nodiscard]] inline const msg::Origin& origin(const msg::Header& header) {
   static const msg::Origin none;
   return header.origins().empty() ? none : header.origins().front();

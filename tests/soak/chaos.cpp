@@ -84,7 +84,7 @@ void Chaos::end_what_is_over(Clock::time_point now) {
   }
 }
 
-void Chaos::settle() {
+void Chaos::end_disturbances() {
   for (Pause& pause : pauses_) pause.ends = Clock::now();
   for (const auto& visitor : visitors_) visitor->leaves = Clock::now();
   const auto deadline = Clock::now() + std::chrono::seconds(60);

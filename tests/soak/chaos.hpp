@@ -44,7 +44,7 @@ class Chaos {
   /// time.
   void step();
   /// Ends what is under way: paused processes go on, visitors leave, the last apply is waited for.
-  void settle();
+  void end_disturbances();
 
   /// From now on these are not killed, so that their memory tells something.
   void spare(std::set<std::string> services) { spared_ = std::move(services); }

@@ -36,7 +36,7 @@ double most_growth(double minutes) { return minutes < 10.0 ? 0.05 : 0.02; }
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// What a stranger downstream sees of one corner service.
+/// What a reader downstream sees of one corner service.
 class Listener {
  public:
   Listener(runtime::Participant& participant, const tests::TestDeployment& deployment,
@@ -201,7 +201,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
       ::nanosleep(&pause, nullptr);
     }
     verdict.require(!up.wait(0ms), "quoin up ended by itself");
-    chaos.settle();
+    chaos.end_disturbances();
     up.signal(SIGINT);
     report["exit_code"] = up.wait(60s).value_or(-1);
     verdict.require(report["exit_code"] == 0, "quoin up ended with another exit code than 0");

@@ -35,7 +35,7 @@ struct Drawing {
   std::vector<DrawnLine> lines;
   std::vector<DrawnCorner> corners;
   std::string ellipses = "95 % ellipses";  ///< what the ellipses are
-  /// Names of up to three sets of corners that are to be told apart; none when there is one set.
+  /// Names of up to three sets of corners that are to be distinguished; none when there is one set.
   std::vector<std::string> series;
 };
 

@@ -10,7 +10,7 @@
 
 namespace quoin::deploy {
 
-/// Every plot is the text of an SVG file of `plot_width` pixels. Series are told apart by colour
+/// Every plot is the text of an SVG file of `plot_width` pixels. Series are distinguished by colour
 /// and by marker, dash or pattern; what is not finite is left out.
 inline constexpr double plot_width = 820.0;
 

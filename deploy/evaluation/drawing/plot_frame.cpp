@@ -17,7 +17,7 @@ constexpr double axis_height = 56.0;
 constexpr double mark_width = 34.0;
 constexpr std::size_t colours = 8;
 
-// Colours after Okabe and Ito, which the colour-blind can tell apart; brighter on dark.
+// Colours after Okabe and Ito, which the colour-blind can distinguish; brighter on dark.
 constexpr StyleSheet plot_style{
     "text{font-family:system-ui,sans-serif;font-size:13px;fill:#24292f}"
     ".title{font-size:15px;font-weight:600}.tick{font-size:12px;fill:#57606a}"

@@ -44,7 +44,7 @@ bool contains(const std::vector<ParameterInfo>& parameters, const ParameterInfo&
   return std::find(parameters.begin(), parameters.end(), info) != parameters.end();
 }
 
-/// What all of several methods have in common, to be told once.
+/// What all of several methods have in common, to be listed once.
 std::vector<ParameterInfo> shared_parameters(const std::vector<MethodInfo>& methods) {
   std::vector<ParameterInfo> shared;
   if (methods.size() < 2) return shared;
@@ -82,8 +82,9 @@ std::string kind_text(const KindInfo& kind, const MeasuredFigures* figures) {
       "## " + kind.name + "\n\n" +
       markdown_paragraph(sentence(kind.description) + " " + sentence(ports_text(kind)));
   if (!shared.empty()) {
-    text += markdown_paragraph("All of its methods have these parameters, and those told below:") +
-            parameter_table(shared);
+    text +=
+        markdown_paragraph("All of its methods have these parameters, and those listed below:") +
+        parameter_table(shared);
   }
   for (const MethodInfo& method : kind.methods) {
     text += method_text(method, &method == &kind.methods.front(), shared);

@@ -31,7 +31,7 @@ struct Connection {
 /// What to try at this endpoint, the likeliest first: `first` if it is not 0, then the usual ones.
 [[nodiscard]] std::vector<unsigned> baud_rates_for(const Endpoint& endpoint, unsigned first);
 
-/// Tries the baud rates until a device answers. Throws DeviceError that tells the most that was
+/// Tries the baud rates until a device answers. Throws DeviceError that reports the most that was
 /// learned, TransportError, or Stopped.
 [[nodiscard]] Connection find_device(const Opener& open, const std::string& name,
                                      std::span<const unsigned> baud_rates,

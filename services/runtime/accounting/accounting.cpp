@@ -123,14 +123,14 @@ ScanAccounting::Change ScanAccounting::change_to(const msg::Header& header) cons
   return took_over(header, 0) ? Change::begin : Change::restart;
 }
 
-// Whether this is of an earlier process of the source than the present one, and was settled or is
-// older than what that one has sent: from a stage that is late.
+// Whether this is of an earlier process of the source than the present one, and was accounted for
+// or is older than what that one has sent: from a stage that is late.
 bool ScanAccounting::repeats_earlier_source(const msg::Header& header) const {
   const msg::StageTrace& source = header.trace()[0];
   const StagePosition& present = previous_->stages[0];
   if (source.incarnation() == present.incarnation) return false;
   const SourceAccount* const account = find_account(sources_, source.incarnation());
-  if (account != nullptr && (account->handed_over || source.index() < account->settled)) {
+  if (account != nullptr && (account->handed_over || source.index() < account->accounted)) {
     return true;
   }
   const std::int64_t late = present.published - source.published();
@@ -180,14 +180,14 @@ void ScanAccounting::return_to(const msg::Header& header) {
 }
 
 // `change` matters where nothing has been heard of the process yet.
-void ScanAccounting::settle(const msg::Header& header, Change change,
-                            const std::vector<Loss>& losses) {
+void ScanAccounting::account_for(const msg::Header& header, Change change,
+                                 const std::vector<Loss>& losses) {
   const msg::StageTrace& source = header.trace()[0];
   SourceAccount* const known = find_account(sources_, source.incarnation());
-  const std::uint64_t settled = source.index() + 1;
+  const std::uint64_t accounted = source.index() + 1;
   const std::uint64_t offset = topics::sequence_number(header) - source.index();
   if (known != nullptr) {
-    known->settled = std::max(known->settled, settled);
+    known->accounted = std::max(known->accounted, accounted);
     known->offset = offset;
     return;
   }
@@ -197,10 +197,10 @@ void ScanAccounting::settle(const msg::Header& header, Change change,
     std::uint64_t lost = 0;
     for (const Loss& loss : losses) lost += loss.count;
     if (!before.handed_over && lost > topics::sequence_number(header)) {
-      before.settled += lost - topics::sequence_number(header);
+      before.accounted += lost - topics::sequence_number(header);
     }
   }
-  sources_.push_back({source.incarnation(), settled, offset, change == Change::begin, false});
+  sources_.push_back({source.incarnation(), accounted, offset, change == Change::begin, false});
 }
 
 std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
@@ -227,7 +227,7 @@ std::vector<Loss> ScanAccounting::receive(const msg::Header& header) {
       earlier_.push_back(*previous_);
     }
   }
-  settle(header, change, losses);
+  account_for(header, change, losses);
   ++received_;
   remember(header);
   return losses;

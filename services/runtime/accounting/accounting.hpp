@@ -46,13 +46,13 @@ struct SourceAccount {
   /// What it published and was delivered, is lost, or was for nobody. Losses that are known to be
   /// behind its last scan that arrived are among them, even when they are of processes after it of
   /// which nothing ever arrived.
-  std::uint64_t settled = 0;
+  std::uint64_t accounted = 0;
   std::uint64_t offset = 0;  ///< of its numbers from its results, at the last one that arrived
   bool begins = true;        ///< what earlier processes published was for nobody
-  bool handed_over = false;  ///< another one went on with its numbers: all is settled
+  bool handed_over = false;  ///< another one went on with its numbers: all are accounted for
 };
 
-/// Tells for each scan whether it arrived, and if not, where it was lost, from nothing but the
+/// Finds for each scan whether it arrived, and if not, where it was lost, from nothing but the
 /// headers of the messages that did arrive. Every stage numbers what it publishes
 /// (StageTrace.index), so the difference of two headers says how many results each stage made of
 /// the scans in between: the first stage that made fewer than its predecessor lost the others.
@@ -63,7 +63,7 @@ struct SourceAccount {
 /// own, nothing is counted as lost: of what the two saw nobody can say whether it was the same.
 /// What comes of an earlier process of the source when its successor has been heard is a
 /// repetition, as a stage that was late may make it. How many scans a process of the source
-/// published behind the last one that arrived is not to be told from headers; who knows it compares
+/// published behind the last one that arrived cannot be known from headers; who knows it compares
 /// it with `sources` (`SourceLedger`).
 class ScanAccounting {
  public:
@@ -113,7 +113,7 @@ class ScanAccounting {
   [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;
   void remember(const msg::Header& header);
   void return_to(const msg::Header& header);
-  void settle(const msg::Header& header, Change change, const std::vector<Loss>& losses);
+  void account_for(const msg::Header& header, Change change, const std::vector<Loss>& losses);
 
   std::optional<Previous> previous_;
   std::vector<Previous> earlier_;  // the last messages of the processes of the source before that

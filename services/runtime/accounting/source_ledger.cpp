@@ -19,7 +19,7 @@ std::uint64_t excess(std::uint64_t value, std::uint64_t over) {
 // A process that a reader heard, and those after it of which it heard nothing until the next one.
 struct SourceLedger::Interval {
   std::vector<std::uint64_t> incarnations;
-  std::uint64_t settled = 0;
+  std::uint64_t accounted = 0;
   std::uint64_t offset = 0;
 };
 
@@ -39,7 +39,7 @@ std::vector<SourceLedger::Interval> SourceLedger::intervals(
       continue;
     }
     Interval& interval = intervals.emplace_back();
-    interval.settled = accounts[i].settled;
+    interval.accounted = accounts[i].accounted;
     interval.offset = accounts[i].offset;
     for (auto process = begin; process != end; ++process) {
       // One that was held while this one was started again took over later, though it is older.
@@ -69,7 +69,7 @@ void SourceLedger::learn(const std::vector<const std::vector<SourceAccount>*>& r
     }
   }
   for (const auto& [last, interval] : proofs) {
-    processes_.at(last).published += excess(interval.settled, published(interval));
+    processes_.at(last).published += excess(interval.accounted, published(interval));
   }
 }
 
@@ -92,12 +92,12 @@ std::uint64_t SourceLedger::scans_before(std::uint64_t incarnation) const {
   return process == processes_.end() ? sum : excess(sum, process->second.first_number);
 }
 
-std::uint64_t SourceLedger::unsettled(const std::vector<SourceAccount>& accounts,
-                                      bool ended) const {
+std::uint64_t SourceLedger::unaccounted(const std::vector<SourceAccount>& accounts,
+                                        bool ended) const {
   std::uint64_t sum = 0;
   for (const Interval& interval : intervals(accounts, ended)) {
     const Process& first = processes_.at(interval.incarnations.front());
-    sum += excess(published(interval), interval.settled) +
+    sum += excess(published(interval), interval.accounted) +
            excess(first.first_number + first.lost, interval.offset);
     for (std::size_t i = 1; i < interval.incarnations.size(); ++i) {
       sum += processes_.at(interval.incarnations[i]).lost;

@@ -12,7 +12,7 @@ namespace quoin::runtime {
 
 /// Brings together what a source says of itself and what several readers saw of its scans, so that
 /// for each reader the scans delivered and lost sum up to what the source published. A process that
-/// is killed cannot tell its last count, and of one that lived while a reader heard nothing, that
+/// is killed cannot report its last count, and of one that lived while a reader heard nothing, that
 /// reader knows nothing at all.
 class SourceLedger {
  public:
@@ -27,8 +27,8 @@ class SourceLedger {
   [[nodiscard]] bool knows(std::uint64_t incarnation) const {
     return processes_.contains(incarnation);
   }
-  /// What the accounts of readers prove to have been published, even when nobody told: the least
-  /// that agrees with all of them.
+  /// What the accounts of readers prove to have been published, even when nobody reported it: the
+  /// least that agrees with all of them.
   void learn(const std::vector<const std::vector<SourceAccount>*>& readers);
 
   [[nodiscard]] std::uint64_t published() const;
@@ -36,10 +36,10 @@ class SourceLedger {
   [[nodiscard]] std::uint64_t scans() const;
   /// Published or lost by the source before that process, and not continued by its numbers.
   [[nodiscard]] std::uint64_t scans_before(std::uint64_t incarnation) const;
-  /// Scans of a reader's accounts that it has neither settled nor will: they are behind the last
-  /// one that it heard of a process, and it has heard of a later one, or `ended`.
-  [[nodiscard]] std::uint64_t unsettled(const std::vector<SourceAccount>& accounts,
-                                        bool ended) const;
+  /// Scans of a reader's accounts that it has neither accounted for nor will: they are behind the
+  /// last one that it heard of a process, and it has heard of a later one, or `ended`.
+  [[nodiscard]] std::uint64_t unaccounted(const std::vector<SourceAccount>& accounts,
+                                          bool ended) const;
 
  private:
   struct Interval;

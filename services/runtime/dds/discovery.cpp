@@ -112,12 +112,13 @@ EndpointPolicies own(const Qos& qos, const std::string& type) {
           qos.deadline().period.to_ns()};
 }
 
-struct Misfit {
+struct Mismatch {
   std::string policy, offered, requested;
 };
 
-std::vector<Misfit> mismatches(const EndpointPolicies& offered, const EndpointPolicies& requested) {
-  std::vector<Misfit> found;
+std::vector<Mismatch> mismatches(const EndpointPolicies& offered,
+                                 const EndpointPolicies& requested) {
+  std::vector<Mismatch> found;
   if (offered.type != requested.type) return {{"type", offered.type, requested.type}};
   const auto check = [&](bool fits, const char* policy, std::string offers, std::string requests) {
     if (!fits) found.push_back({policy, std::move(offers), std::move(requests)});
@@ -140,7 +141,7 @@ std::vector<Misfit> mismatches(const EndpointPolicies& offered, const EndpointPo
 void add_misfits(const std::string& topic, const std::string& writer,
                  const EndpointPolicies& offered, const std::string& reader,
                  const EndpointPolicies& requested, std::vector<std::string>& texts) {
-  for (const Misfit& mismatch : mismatches(offered, requested)) {
+  for (const Mismatch& mismatch : mismatches(offered, requested)) {
     std::string text = topic + ": " + mismatch.policy + ": " + writer + " offers " +
                        mismatch.offered + ", " + reader + " requests " + mismatch.requested;
     const bool known = std::find(texts.begin(), texts.end(), text) != texts.end();

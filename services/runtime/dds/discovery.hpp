@@ -30,7 +30,7 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
-/// What a stranger calls itself, fit for a log.
+/// What another participant calls itself, fit for a log.
 [[nodiscard]] std::string printable(std::string text);
 
 /// What a participant announces about the topics that it observes, as its user data. Bounded, so
@@ -42,7 +42,7 @@ struct EndpointPolicies {
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataWriter& writer);
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataReader& reader);
 
-/// The endpoints of all other participants in the domain, as discovery tells of them: DDS says that
+/// The endpoints of all other participants in the domain, as discovery reports them: DDS says that
 /// an endpoint does not fit, but not whose it is and what that one asks for.
 class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener {
  public:

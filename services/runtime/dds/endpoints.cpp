@@ -58,7 +58,7 @@ bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
   CdrSample sample{message, codec};
   dds::SampleInfo info;
   while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
-    if (!info.valid_data) continue;  // tells of an instance that ended
+    if (!info.valid_data) continue;  // the end of an instance
     const auto& writer = info.sample_identity.writer_guid();
     std::uint64_t hash = 14695981039346656037U;  // FNV-1a
     for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;

@@ -109,7 +109,8 @@ class WriterBase {
   [[nodiscard]] bool wait_for_readers(std::size_t count, std::chrono::milliseconds timeout) const;
   /// True once all matched readers have everything; false after `timeout`.
   bool wait_for_acknowledgments(std::chrono::milliseconds timeout);
-  /// Tells the readers of a topic with strengths that this writer still lives; writing does, too.
+  /// Asserts the liveliness of this writer to the readers of a topic with strengths; so does
+  /// writing.
   void assert_liveliness();
   /// Names of the participants that announced that they observe this topic and have no matched
   /// reader yet; without those whose reader does not fit. To be waited for before the first

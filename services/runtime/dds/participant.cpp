@@ -41,10 +41,10 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
 
 // Of 50 new processes on loopback the last knew an observer 24 ms after its participant was
 // created, 55 ms beside two busy loops. A discovery server is asked every 450 ms: 468 ms.
-constexpr auto settled_after = std::chrono::milliseconds(120);
-constexpr auto settled_after_with_server = std::chrono::milliseconds(1000);
+constexpr auto complete_after = std::chrono::milliseconds(120);
+constexpr auto complete_after_with_server = std::chrono::milliseconds(1000);
 // A machine that is slow to discover the others discovers them one after the other.
-constexpr auto settled_after_the_newest = std::chrono::milliseconds(60);
+constexpr auto complete_after_the_newest = std::chrono::milliseconds(60);
 
 // A new participant announces itself a few milliseconds before it can receive, and Fast DDS 2.9
 // answers the first announcement alone: it would learn of this one only with the next periodic
@@ -135,10 +135,10 @@ bool Participant::discovery_complete() const {
   const auto now = std::chrono::steady_clock::now();
   const auto age = now - impl_->created;
   if (impl_->discovery != Discovery::server) {
-    return age >= settled_after &&
-           now - impl_->endpoints->newest_participant() >= settled_after_the_newest;
+    return age >= complete_after &&
+           now - impl_->endpoints->newest_participant() >= complete_after_the_newest;
   }
-  return age >= settled_after_with_server && impl_->endpoints->knows_server();
+  return age >= complete_after_with_server && impl_->endpoints->knows_server();
 }
 
 dds::Topic* Participant::Impl::topic(const std::string& name, const std::string& type_name,

@@ -87,7 +87,7 @@ Qos common_qos(Qos qos, const TopicQos& topic) {
   qos.resource_limits().max_samples_per_instance = samples;
   qos.resource_limits().max_samples = keyed ? max_instances * samples : samples;
   qos.resource_limits().allocated_samples = 1;
-  // Data keeps its memory from scan to scan. What strangers may send must not: a few oversized
+  // Data keeps its memory from scan to scan. What anybody may send must not: a few oversized
   // requests would leave every place of the history as large as the largest of them. Nor what an
   // observer holds of a burst, which may be tens of megabytes.
   qos.endpoint().history_memory_policy =

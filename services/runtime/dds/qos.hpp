@@ -18,7 +18,7 @@ enum class QosPreset {
   control,   ///< reliable, volatile, keep last 256: requests and replies
   observer,  ///< of readers: reliable, volatile, keep last 4096: bursts arrive, no writer waits
   lossless,  ///< reliable, keep all: a slow reader slows the writer down (replay, evaluation)
-  best_effort,  ///< volatile, keep last 32, nothing is sent again: what strangers write
+  best_effort,  ///< volatile, keep last 32, nothing is sent again: what external services write
 };
 
 /// Throws std::invalid_argument for an unknown name.

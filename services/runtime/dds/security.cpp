@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto pause = std::chrono::minutes(1);  // between two lines of one text
-constexpr std::size_t most_texts = 30;           // in that time; strangers choose their names
+constexpr std::size_t most_texts = 30;           // in that time; intruders choose their names
 constexpr std::size_t most_names = 1000;
 constexpr const char* command_log = "quoin";
 
@@ -38,7 +38,7 @@ std::string text_of(const rtps::GuidPrefix_t& prefix) {
   return text.str();
 }
 
-/// The services' logs tell; commands, whose output belongs to what they were asked, tell errors
+/// Services log them; commands, whose output belongs to what they were asked, report errors
 /// only.
 bool is_command() {
   if (spdlog::default_logger()->name().empty()) {
@@ -55,14 +55,14 @@ class Refusals {
     return refusals;
   }
 
-  void tell(const std::string& text, spdlog::level::level_enum level = spdlog::level::warn) {
+  void report(const std::string& text, spdlog::level::level_enum level = spdlog::level::warn) {
     if (quiet_ && level < spdlog::level::err) return;
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
-    std::erase_if(told_, [&](const auto& entry) { return now - entry.second > pause; });
-    if (told_.size() > most_texts || !told_.emplace(text, now).second) return;
+    std::erase_if(reported_, [&](const auto& entry) { return now - entry.second > pause; });
+    if (reported_.size() > most_texts || !reported_.emplace(text, now).second) return;
     spdlog::log(level, "{}{}", text,
-                told_.size() > most_texts ? "; more is not told for a minute" : "");
+                reported_.size() > most_texts ? "; more is not reported for a minute" : "");
   }
 
   void learn(const std::string& prefix, const std::string& name) {
@@ -86,7 +86,7 @@ class Refusals {
   bool quiet_;
   std::mutex mutex_;
   std::map<std::string, std::string> names_;  // by the prefix of the GUID
-  std::map<std::string, Clock::time_point> told_;
+  std::map<std::string, Clock::time_point> reported_;
 };
 
 /// Takes over the log of Fast DDS, where permissions that are missing show.
@@ -94,12 +94,12 @@ class Consumer : public dds::LogConsumer {
  public:
   void Consume(const dds::Log::Entry& entry) override {
     const std::string function = entry.context.function == nullptr ? "" : entry.context.function;
-    // The caller tells the same with the GUID.
+    // The caller reports the same with the GUID.
     if (function.rfind("check_remote_", 0) == 0) return;
     if (tell_missing_permission(entry.message)) return;
     // Where in Fast DDS's sources it was is of no use here.
-    Refusals::instance().tell("Fast DDS: " + entry.message.substr(0, entry.message.find(" (./src")),
-                              spdlog::level::err);
+    Refusals::instance().report(
+        "Fast DDS: " + entry.message.substr(0, entry.message.find(" (./src")), spdlog::level::err);
   }
 
  private:
@@ -115,7 +115,7 @@ class Consumer : public dds::LogConsumer {
       return false;
     }
     const bool writer = message.compare(begin.size(), 6, "writer") == 0;
-    Refusals::instance().tell(
+    Refusals::instance().report(
         "refused " + Refusals::instance().participant(message.substr(guid, guid_end - guid)) +
         (writer ? ": no permission to write " : ": no permission to read ") +
         printable(message.substr(topic + 2, topic_end - topic - 2)));
@@ -138,8 +138,8 @@ class Listener : public KnownEndpoints {
                                    rtps::ParticipantAuthenticationInfo&& info) override {
     if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
     Refusals& refusals = Refusals::instance();
-    refusals.tell("refused " + refusals.participant(text_of(info.guid.guidPrefix)) +
-                  ": its identity is missing, foreign, expired or revoked");
+    refusals.report("refused " + refusals.participant(text_of(info.guid.guidPrefix)) +
+                    ": its identity is missing, foreign, expired or revoked");
   }
 
  private:
@@ -155,11 +155,11 @@ class Listener : public KnownEndpoints {
     const std::string* authority =
         rtps::DataHolderHelper::find_property_value(info.info.identity_token_, "dds.ca.sn");
     if (authority == nullptr) {
-      refusals.tell("refused " + refusals.participant(prefix) + ": it has no identity");
+      refusals.report("refused " + refusals.participant(prefix) + ": it has no identity");
     } else if (*authority != "/CN=" + authority_) {
-      // A handshake that the stranger has to begin may never come, hence not left to that.
-      refusals.tell("refused " + refusals.participant(prefix) +
-                    ": its identity is of another authority");
+      // A handshake that the other has to begin may never come, hence not left to that.
+      refusals.report("refused " + refusals.participant(prefix) +
+                      ": its identity is of another authority");
     }
   }
 

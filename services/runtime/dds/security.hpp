@@ -12,9 +12,10 @@
 
 namespace quoin::runtime {
 
-/// From now on what DDS Security refuses is told in this process's log, a line for each participant
-/// and topic, once a minute at most. What is returned listens for the participant called
-/// `own_name`, and tells of those whose identity is not signed by `authority` (its common name).
+/// From now on what DDS Security refuses is reported in this process's log, a line for each
+/// participant and topic, once a minute at most. What is returned listens for the participant
+/// called `own_name`, and reports those whose identity is not signed by `authority` (its common
+/// name).
 [[nodiscard]] std::unique_ptr<KnownEndpoints> tell_refusals(const std::string& own_name,
                                                             const std::string& authority);
 

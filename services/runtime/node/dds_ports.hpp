@@ -24,7 +24,7 @@ namespace quoin::runtime {
 /// numbers that DDS has given them.
 class StrangerNumbers {
  public:
-  /// `service`: what the stranger is called in the deployment.
+  /// `service`: what the external service is called in the deployment.
   explicit StrangerNumbers(std::string service) : service_(std::move(service)) {}
 
   /// Leaves a header as it is that has what accounting needs.
@@ -87,11 +87,11 @@ class MessagePool {
 template <class T>
 class ReaderInput final : public Input {
  public:
-  /// `stranger`: name of the external service that writes; "" for services of the deployment.
+  /// `external`: name of the external service that writes; "" for services of the deployment.
   ReaderInput(Participant& participant, const std::string& topic, const TopicQos& qos,
-              const std::string& stranger = "")
+              const std::string& external = "")
       : reader_(participant, topic, qos) {
-    if (!stranger.empty()) numbers_.emplace(stranger);
+    if (!external.empty()) numbers_.emplace(external);
   }
 
   [[nodiscard]] std::optional<Message> take() override {
@@ -125,14 +125,14 @@ struct ObservedMessage {
 /// Messages of any type that DDS brings to an observer. What has no header of ours is left out.
 class ObservedInput final : public Input {
  public:
-  /// `stranger`: as above.
+  /// `external`: as above.
   ObservedInput(Participant& participant, const OutputConfig& output, const TopicQos& qos,
-                const std::string& stranger = "")
+                const std::string& external = "")
       : type_(output.type),
         topic_(output.topic),
         reader_(participant, output.topic,
                 std::string(topics::find_topic_type(output.type)->dds_type), qos) {
-    if (!stranger.empty()) numbers_.emplace(stranger);
+    if (!external.empty()) numbers_.emplace(external);
   }
 
   [[nodiscard]] std::optional<Message> take() override {
@@ -188,7 +188,7 @@ class WriterOutput final : public Output {
     if (!neighbours_) return writer_.write(*current_);
     if (!neighbours_->wait_for_room(longest_wait_for_neighbours)) return false;
     if ((always_ || writer_.matched() > 0) && !writer_.write(*current_)) return false;
-    if (!neighbours_->empty()) hand_over();
+    if (!neighbours_->empty()) pass_to_neighbours();
     return true;
   }
   [[nodiscard]] std::size_t matched() const override {
@@ -217,7 +217,7 @@ class WriterOutput final : public Output {
   static constexpr std::chrono::milliseconds longest_wait_for_neighbours{1000};
 
   /// The message is theirs from now on, unless it is somebody else's.
-  void hand_over() {
+  void pass_to_neighbours() {
     const bool own = current_ == own_.get();
     if (!own) *own_ = *current_;
     const std::shared_ptr<T> message = std::exchange(own_, pool_.take());
@@ -240,7 +240,7 @@ struct DdsInput {
 };
 
 using MakeInput = DdsInput (*)(Participant&, const std::string& topic, const TopicQos&,
-                               const std::string& stranger);
+                               const std::string& external);
 using MakeOutput = std::unique_ptr<Output> (*)(Participant&, const std::string& topic,
                                                const TopicQos&, std::shared_ptr<LocalTopic>);
 
@@ -258,8 +258,8 @@ struct Writes {};
 template <class... In, class... Out>
 [[nodiscard]] PortTypes port_types(Reads<In...>, Writes<Out...>) {
   return {{+[](Participant& participant, const std::string& topic, const TopicQos& qos,
-               const std::string& stranger) {
-            auto input = std::make_unique<ReaderInput<In>>(participant, topic, qos, stranger);
+               const std::string& external) {
+            auto input = std::make_unique<ReaderInput<In>>(participant, topic, qos, external);
             ReaderBase* reader = &input->reader();
             return DdsInput{std::move(input), reader};
           }...},

@@ -68,9 +68,9 @@ class Node {
   [[nodiscard]] bool has_left() const { return left_; }
   /// Handles what has been received, waiting for nothing.
   void drain();
-  /// After the last result has arrived: tells the successor where to begin.
+  /// After the last result has arrived: informs the successor where to begin.
   void leave();
-  /// Tells the readers that it lives.
+  /// Asserts its liveliness to the readers.
   void assert_liveliness();
 
   [[nodiscard]] MethodExchange& exchange() { return exchange_; }

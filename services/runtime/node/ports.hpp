@@ -61,7 +61,7 @@ class Output {
   [[nodiscard]] virtual std::vector<std::string> awaited_observers() const { return {}; }
   /// True once all readers have everything; false after `timeout`.
   virtual bool wait_for_acknowledgments(std::chrono::milliseconds) { return true; }
-  /// Tells that this writer lives though it has nothing to write.
+  /// Asserts the liveliness of this writer when it has nothing to write.
   virtual void assert_liveliness() {}
   /// Readers that keep a lossless writer waiting and were not heard for long; those that are dead
   /// are dropped.

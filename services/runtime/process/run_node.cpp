@@ -157,7 +157,7 @@ class NodeThread {
   }
 
   void turn() {
-    // An instance that stands by, or is stood by for, tells that it lives; from this thread, so
+    // An instance that stands by, or is stood by for, asserts its liveliness; from this thread, so
     // that one whose method hangs is replaced.
     milliseconds timeout = longest_wait;
     if (service_.config.strength) timeout = service_.config.lease / 4;

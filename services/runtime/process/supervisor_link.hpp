@@ -11,8 +11,8 @@
 
 namespace quoin::runtime {
 
-/// Tells the service manager that started this process how it is, in systemd's notify protocol
-/// (sd_notify(3)). Does nothing where there is none (NOTIFY_SOCKET is not set).
+/// Reports the state of this process to the service manager that started it, in systemd's notify
+/// protocol (sd_notify(3)). Does nothing where there is none (NOTIFY_SOCKET is not set).
 class SupervisorLink {
  public:
   using Clock = std::chrono::steady_clock;

@@ -74,7 +74,7 @@ class ApplyOn : public testing::Test {
       step.service(name);
     }
     requester_.reply(request.request(), plan);
-    if (!request.in_concert()) {
+    if (!request.coordinated()) {
       finish(request.service(), true, "");
       return;
     }

@@ -63,8 +63,9 @@ TEST(ScanFiles, ReadAFileOfAnyNameWhenTheFormatIsGiven) {
   ScanFiles carmen(folder.write("two", flaser("5")), ScanFormat::carmen, pi);
   EXPECT_THAT(first_ranges(carmen), ElementsAre(5));
   const std::string file = folder.path() / "one";
-  EXPECT_EQ(error_of<ScanFileError>([&] { ScanFiles files(file, ScanFormat::automatic, pi); }),
-            "cannot tell how scan file '" + file + "' is written; set 'format' to carmen or csv");
+  EXPECT_EQ(
+      error_of<ScanFileError>([&] { ScanFiles files(file, ScanFormat::automatic, pi); }),
+      "cannot find out how scan file '" + file + "' is written; set 'format' to carmen or csv");
 }
 
 TEST(ScanFiles, ReportWhatIsMissingWhenOpened) {

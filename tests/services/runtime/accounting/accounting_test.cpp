@@ -356,11 +356,11 @@ TEST(ScanAccounting, KeepsAnAccountOfEachProcessOfTheSource) {
   const SourceAccount& first = accounting.sources()[0];
   EXPECT_EQ(first.incarnation, 1U);
   EXPECT_TRUE(first.begins);
-  EXPECT_EQ(first.settled, 3U + 5U + 3U) << "one of the four may be of the new process";
+  EXPECT_EQ(first.accounted, 3U + 5U + 3U) << "one of the four may be of the new process";
   const SourceAccount& second = accounting.sources()[1];
   EXPECT_EQ(second.incarnation, 2U);
   EXPECT_FALSE(second.begins);
-  EXPECT_EQ(second.settled, 2U);
+  EXPECT_EQ(second.accounted, 2U);
   EXPECT_FALSE(first.handed_over);
   pipeline.take_over(0);
   accounting.receive(pipeline.scan());

@@ -11,8 +11,8 @@
 namespace quoin::runtime {
 namespace {
 
-SourceAccount account(std::uint64_t incarnation, std::uint64_t settled, bool begins = false) {
-  return {incarnation, settled, 0, begins, false};
+SourceAccount account(std::uint64_t incarnation, std::uint64_t accounted, bool begins = false) {
+  return {incarnation, accounted, 0, begins, false};
 }
 
 /// Of processes that started at 10, 20, ... and have published this.
@@ -26,10 +26,10 @@ SourceLedger ledger_of(const std::vector<std::uint64_t>& published) {
 TEST(SourceLedger, WhatIsBehindTheLastScanOfAProcessIsUnsettledOnceAnotherOneIsHeard) {
   SourceLedger ledger = ledger_of({100, 50});
   EXPECT_EQ(ledger.published(), 150U);
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true)}, false), 0U) << "they may come";
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true), account(20, 5)}, false), 10U);
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true), account(20, 5)}, true), 55U);
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true)}, true), 60U) << "the other was never heard";
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true)}, false), 0U) << "they may come";
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true), account(20, 5)}, false), 10U);
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true), account(20, 5)}, true), 55U);
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true)}, true), 60U) << "the other was never heard";
 }
 
 TEST(SourceLedger, AProcessThatWasNeverHeardIsUnsettledWhenTheNextOneIs) {
@@ -37,7 +37,7 @@ TEST(SourceLedger, AProcessThatWasNeverHeardIsUnsettledWhenTheNextOneIs) {
   ledger.add(10, {0, 100, 0});
   ledger.add(20, {0, 50, 3});
   ledger.add(30, {0, 7, 0});
-  EXPECT_EQ(ledger.unsettled({account(10, 100, true), account(30, 2)}, false), 53U);
+  EXPECT_EQ(ledger.unaccounted({account(10, 100, true), account(30, 2)}, false), 53U);
 }
 
 TEST(SourceLedger, AProcessThatWasHeldWhileTheOneBeforeWasStartedAgainIsSettledByItself) {
@@ -45,8 +45,8 @@ TEST(SourceLedger, AProcessThatWasHeldWhileTheOneBeforeWasStartedAgainIsSettledB
   SourceAccount restarted = account(30, 7);
   restarted.handed_over = true;
   const std::vector<SourceAccount> accounts{account(10, 100, true), restarted, account(20, 50)};
-  EXPECT_EQ(ledger.unsettled(accounts, true), 0U);
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true), restarted, account(20, 45)}, true), 15U);
+  EXPECT_EQ(ledger.unaccounted(accounts, true), 0U);
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true), restarted, account(20, 45)}, true), 15U);
 }
 
 TEST(SourceLedger, WhatTheSourceLostItselfBehindTheLastScanIsUnsettledToo) {
@@ -54,7 +54,7 @@ TEST(SourceLedger, WhatTheSourceLostItselfBehindTheLastScanIsUnsettledToo) {
   ledger.add(10, {5, 100, 4});
   SourceAccount heard = account(10, 100, true);
   heard.offset = 8;  // three of the four are known by the numbers
-  EXPECT_EQ(ledger.unsettled({heard}, true), 1U);
+  EXPECT_EQ(ledger.unaccounted({heard}, true), 1U);
 }
 
 TEST(SourceLedger, LearnsFromOneReaderWhatNobodyTold) {
@@ -63,8 +63,8 @@ TEST(SourceLedger, LearnsFromOneReaderWhatNobodyTold) {
   const std::vector<SourceAccount> does_not{account(10, 70, true), account(20, 5)};
   ledger.learn({&knows, &does_not});
   EXPECT_EQ(ledger.published(), 135U);
-  EXPECT_EQ(ledger.unsettled(knows, true), 0U);
-  EXPECT_EQ(ledger.unsettled(does_not, true), 60U);
+  EXPECT_EQ(ledger.unaccounted(knows, true), 0U);
+  EXPECT_EQ(ledger.unaccounted(does_not, true), 60U);
 }
 
 TEST(SourceLedger, LossesBehindTheLastScanMayBeOfAProcessThatWasNeverHeard) {
@@ -72,7 +72,7 @@ TEST(SourceLedger, LossesBehindTheLastScanMayBeOfAProcessThatWasNeverHeard) {
   const std::vector<SourceAccount> accounts{account(10, 140, true), account(30, 2)};
   ledger.learn({&accounts});
   EXPECT_EQ(ledger.published(), 157U);
-  EXPECT_EQ(ledger.unsettled(accounts, false), 10U);
+  EXPECT_EQ(ledger.unaccounted(accounts, false), 10U);
 }
 
 TEST(SourceLedger, LearnsNothingTwice) {
@@ -85,11 +85,11 @@ TEST(SourceLedger, LearnsNothingTwice) {
 
 TEST(SourceLedger, NobodyCanTellWhatWasLostBetweenSourcesThatAreNotComparable) {
   SourceLedger ledger = ledger_of({100, 50});
-  EXPECT_EQ(ledger.unsettled({account(10, 90, true), account(20, 5, true)}, false), 0U);
+  EXPECT_EQ(ledger.unaccounted({account(10, 90, true), account(20, 5, true)}, false), 0U);
   SourceAccount handed_over = account(10, 90, true);
   handed_over.handed_over = true;
-  EXPECT_EQ(ledger.unsettled({handed_over, account(20, 5)}, false), 0U);
-  EXPECT_EQ(ledger.unsettled({account(15, 90, true)}, true), 0U) << "of another source";
+  EXPECT_EQ(ledger.unaccounted({handed_over, account(20, 5)}, false), 0U);
+  EXPECT_EQ(ledger.unaccounted({account(15, 90, true)}, true), 0U) << "of another source";
 }
 
 TEST(SourceLedger, TellsWhatWasBeforeTheFirstScanThatArrived) {
@@ -137,7 +137,7 @@ class Accident {
       const auto& accounts = reader.accounting.sources();
       EXPECT_EQ(reader.first + ledger.scans_before(accounts.front().incarnation) +
                     reader.accounting.received() + reader.accounting.lost() +
-                    ledger.unsettled(accounts, true),
+                    ledger.unaccounted(accounts, true),
                 ledger.published());
     }
   }

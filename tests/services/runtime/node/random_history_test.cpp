@@ -161,7 +161,7 @@ class History {
     EXPECT_EQ(*accounting_.first_sequence() +
                   ledger.scans_before(accounting_.sources().front().incarnation) +
                   accounting_.received() + accounting_.lost() +
-                  ledger.unsettled(accounting_.sources(), true),
+                  ledger.unaccounted(accounting_.sources(), true),
               published);
     EXPECT_EQ(accounting_.duplicates(), doubled_) << "no service has doubled anything";
     walls_.judge();
