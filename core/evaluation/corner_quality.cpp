@@ -16,8 +16,8 @@
 namespace quoin {
 namespace {
 
-constexpr double nearest_stray = 0.2;  // [m]
-constexpr double same_corner = 0.15;   // [m]
+constexpr double nearest_stray = 0.2;          // [m]
+constexpr double largest_corner_error = 0.15;  // [m]
 
 /// One scan of the world from its first pose, with strays.
 void extract(Extraction& extraction, const World& world, const DisturbedScans& disturbed,
@@ -35,13 +35,13 @@ void extract(Extraction& extraction, const World& world, const DisturbedScans& d
   extraction.run(view(scan, settings), disturbed.noise, disturbed.noise);
 }
 
-struct Sums {
+struct CoverageSums {
   std::size_t covered = 0;
   double nees = 0.0;
 };
 
 void count(const std::vector<Corner>& corners, const std::vector<Eigen::Vector2d>& truth,
-           CornerQuality& quality, Sums& sums) {
+           CornerQuality& quality, CoverageSums& sums) {
   ++quality.scans;
   quality.true_corners += truth.size();
   std::vector<bool> found(truth.size());
@@ -49,7 +49,7 @@ void count(const std::vector<Corner>& corners, const std::vector<Eigen::Vector2d
     bool is_true = false;
     for (std::size_t k = 0; k < truth.size(); ++k) {
       const Eigen::Vector2d error = corner.estimate.position - truth[k];
-      if (error.norm() > same_corner) continue;
+      if (error.norm() > largest_corner_error) continue;
       is_true = true;
       if (found[k]) continue;
       found[k] = true;
@@ -66,7 +66,7 @@ void count(const std::vector<Corner>& corners, const std::vector<Eigen::Vector2d
 
 CornerQuality judge_room_corners(Extraction& extraction, const DisturbedScans& disturbed) {
   CornerQuality quality;
-  Sums sums;
+  CoverageSums sums;
   Random random(disturbed.seed);
   const std::vector<Eigen::Vector2d> corners{{0.0, 0.0}, {5.0, 0.0}, {5.0, 3.5}, {0.0, 3.5}};
   World world;
@@ -90,7 +90,7 @@ CornerQuality judge_room_corners(Extraction& extraction, const DisturbedScans& d
 CornerQuality judge_column(Extraction& extraction, double radius, double distance,
                            const DisturbedScans& disturbed) {
   CornerQuality quality;
-  Sums sums;
+  CoverageSums sums;
   Random random(disturbed.seed);
   World world;
   world.pillars = {{{distance + radius, 0.0}, radius}};

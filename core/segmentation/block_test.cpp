@@ -19,7 +19,7 @@ struct Limits {
 };
 constexpr Limits limits_of_long{22.458, 13.816};  // exceeded once in 1000 times
 constexpr Limits limits_of_short{16.812, 9.210};  // once in 100 times: clutter is short
-constexpr double largest_bow = 0.01;              // of a wall, over its length
+constexpr double bow_of_a_wall = 0.01;            // of a wall, over its length
 
 std::size_t block_count(std::size_t points) {
   return points >= many_points ? most_blocks : std::min(points, few_blocks);
@@ -80,7 +80,7 @@ BlockTest test_blocks(const BlockMeans& blocks, const SensorModel& sensor, doubl
   const double first = fit.line.along(means.front().x, means.front().y);
   const double last = fit.line.along(means.back().x, means.back().y);
   const double length = std::abs(last - first);
-  if (farthest <= std::min(flatness, largest_bow * length)) return test;
+  if (farthest <= std::min(flatness, bow_of_a_wall * length)) return test;
 
   double chi_square = 0.0;
   for (const BlockMean& mean : means) {

@@ -16,7 +16,7 @@ constexpr int most_trims = 8;
 constexpr double fewest_kept = 0.75;
 // A likelihood ratio for two lines instead of one, with a place to split that was searched for.
 constexpr double significant_rise = 25.0;
-constexpr std::size_t fewest_to_split = 3;
+constexpr std::size_t fewest_on_a_side = 3;
 constexpr std::size_t places_to_look = 32;
 // Tolerances that a short wall on a long one's line may end beside it.
 constexpr double far_off = 4.0;
@@ -91,7 +91,7 @@ std::size_t Straightener::best_split(const PointsView& points, const Segment& ra
     sums_[k + 1].add(points.x[range.begin + k] - x, points.y[range.begin + k] - y);
   }
   const OrthogonalLine whole = orthogonal_line(CentralMoments(sums_.back(), x, y));
-  if (!whole.ok() || range.size() < 2 * fewest_to_split) return 0;
+  if (!whole.ok() || range.size() < 2 * fewest_on_a_side) return 0;
   const double middle = std::hypot(whole.moments.mean_x, whole.moments.mean_y);
   const double variance = tolerance_.squared(whole.line.offset / middle, whole.tangential_mean()) /
                           (deviations_in_tolerance * deviations_in_tolerance);
@@ -105,12 +105,12 @@ std::size_t Straightener::best_split(const PointsView& points, const Segment& ra
     largest = rise;
     best = k;
   };
-  const std::size_t last = range.size() - fewest_to_split;
+  const std::size_t last = range.size() - fewest_on_a_side;
   const std::size_t step = 1 + range.size() / places_to_look;
-  for (std::size_t k = fewest_to_split; k <= last; k += step) look(k);
+  for (std::size_t k = fewest_on_a_side; k <= last; k += step) look(k);
   if (best == 0) return 0;
   const std::size_t coarse = best;
-  const std::size_t first = std::max(coarse - std::min(coarse, step - 1), fewest_to_split);
+  const std::size_t first = std::max(coarse - std::min(coarse, step - 1), fewest_on_a_side);
   for (std::size_t k = first; k <= std::min(coarse + step - 1, last); ++k) look(k);
   return range.begin + best;
 }

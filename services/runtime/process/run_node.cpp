@@ -205,9 +205,9 @@ MethodFactory checked(const KindInfo& kind, const MethodFactory& make) {
 
 }  // namespace
 
-Component node_component(const KindInfo& kind, PortTypes types, MethodFactory make) {
+Component node_component(const KindInfo& kind, PortTypes types, const MethodFactory& make) {
   return {&kind,
-          [&kind, types = std::move(types), factory = checked(kind, std::move(make))](
+          [&kind, types = std::move(types), factory = checked(kind, make)](
               const Deployment&, const ServiceConfig& config) -> Component::Body {
             (void)factory(config.method, config.parameters);  // throws before DDS is touched
             return [&kind, &types, factory](Service& service) {

@@ -20,7 +20,8 @@ template <class In, class Out>
 using Handler = std::function<std::size_t(const In&, Out&)>;
 
 /// A kind whose services are nodes. `types` are those of the kind's ports, in their order.
-[[nodiscard]] Component node_component(const KindInfo& kind, PortTypes types, MethodFactory make);
+[[nodiscard]] Component node_component(const KindInfo& kind, PortTypes types,
+                                       const MethodFactory& make);
 
 /// The same for a kind that turns one message into one other. `make` makes the handler for a method
 /// and its parameters; it throws ParameterError.
