@@ -3,7 +3,6 @@
 #include "core/evaluation/corner_quality.hpp"
 
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include <Eigen/LU>

@@ -136,9 +136,11 @@ SegmentationQuality judge_segmentation(const Segmenter& segmenter, std::span<con
         bool matched = false;
         std::size_t small = 0;
         for (const TrueSegment& candidate : truth) {
-          // More than half of the found points, and of those of this stretch of the wall.
-          if (2 * points_on_wall(labels, segment, candidate.wall) <= own.size()) continue;
           const std::size_t common = overlap(segment, candidate.segment);
+          // More than half of the found points, and of those of this stretch of the wall.
+          if (common == 0 || 2 * points_on_wall(labels, segment, candidate.wall) <= own.size()) {
+            continue;
+          }
           if (!candidate.required) small += common;
           if (!candidate.required || 2 * common <= candidate.segment.size() || !fit.ok()) continue;
           const LineError error = error_of(fit.estimate.line, candidate);

@@ -34,10 +34,9 @@ class ArcFinder {
         flatness_(flatness),
         floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
 
-  /// Whether the piece alone is bent like a circle.
-  [[nodiscard]] bool is_arc(const Piece& piece, const BlockMeans& blocks) const {
-    return test_blocks(blocks, sensor_, flatness_).crooked &&
-           circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
+  /// Whether a piece that is crooked is bent like a circle.
+  [[nodiscard]] bool is_arc(const Piece& piece) const {
+    return circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
   }
 
   /// Whether both are of one circle.
@@ -150,22 +149,22 @@ void make_round(Piece& piece) {
 }  // namespace
 
 void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
-               double flatness, std::vector<Piece>& pieces, std::vector<BlockMeans>& blocks) {
+               double flatness, std::vector<Piece>& pieces, std::vector<TestedBlocks>& blocks) {
   const ArcFinder finder(points, sensor, tolerance, flatness);
   blocks.clear();
   std::size_t kept = 0;
   for (const Piece& piece : pieces) {
     const BlockMeans own(points, piece.segment);
     Piece* const before = kept > 0 && piece.joined ? &pieces[kept - 1] : nullptr;
-    if (before != nullptr && finder.are_arc(*before, blocks.back(), piece, own)) {
+    if (before != nullptr && finder.are_arc(*before, blocks.back().means, piece, own)) {
       before->segment.end = piece.segment.end;
       make_round(*before);
-      blocks.back() = BlockMeans(points, before->segment);
+      blocks.back().means = BlockMeans(points, before->segment);
       continue;
     }
     pieces[kept] = piece;
-    if (finder.is_arc(piece, own)) make_round(pieces[kept]);
-    blocks.push_back(own);
+    blocks.push_back({own, test_blocks(own, sensor, flatness)});
+    if (blocks.back().test.crooked && finder.is_arc(piece)) make_round(pieces[kept]);
     ++kept;
   }
   pieces.resize(kept);

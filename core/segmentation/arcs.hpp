@@ -13,8 +13,8 @@ namespace quoin {
 
 /// Unites neighbouring pieces of one round thing and marks them as round: a circle explains their
 /// points and lines do not explain them better. The pieces have been fitted. `blocks` becomes the
-/// means of each.
+/// blocks of each, tested unless it is round.
 void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
-               double flatness, std::vector<Piece>& pieces, std::vector<BlockMeans>& blocks);
+               double flatness, std::vector<Piece>& pieces, std::vector<TestedBlocks>& blocks);
 
 }  // namespace quoin

@@ -51,6 +51,12 @@ struct BlockTest {
 [[nodiscard]] BlockTest test_blocks(const BlockMeans& blocks, const SensorModel& sensor,
                                     double flatness);
 
+/// Of one run of points.
+struct TestedBlocks {
+  BlockMeans means;
+  BlockTest test;
+};
+
 /// A wall that is shorter has to be clearly straight.
 inline constexpr double short_wall = 0.5;  // [m]
 

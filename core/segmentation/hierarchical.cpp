@@ -14,10 +14,6 @@ constexpr std::size_t fewest_for_slope = 3;
 // is 2.8 or more.
 constexpr double explained_by_noise = 0.5;
 
-double sine_between(const PointsView& points, std::size_t from, std::size_t to) {
-  return points.cosine[from] * points.sine[to] - points.sine[from] * points.cosine[to];
-}
-
 /// The regression of the coordinates on the bearing.
 struct Slopes {
   double x = 0.0;         ///< [m/rad]
@@ -115,12 +111,10 @@ void Hierarchical::split_at_slopes(const PointsView& points, const Segment& clus
 void Hierarchical::split_at_gaps(const PointsView& points, const Segment& cluster) {
   std::size_t begin = cluster.begin;
   for (std::size_t i = cluster.begin + 1; i < cluster.end; ++i) {
-    const double dx = points.x[i] - points.x[i - 1];
-    const double dy = points.y[i] - points.y[i - 1];
     const double spacing =
         std::min(points.range[i - 1], points.range[i]) * std::abs(sine_between(points, i - 1, i));
     const double limit = std::max(parameters_.cluster_distance, 2.0 * spacing);
-    if (dx * dx + dy * dy <= limit * limit) continue;
+    if (squared_distance(points, i - 1, i) <= limit * limit) continue;
     split_at_slopes(points, {begin, i});
     begin = i;
   }

@@ -18,6 +18,14 @@ void move_behind(const std::vector<std::size_t>& moved, std::vector<double>& val
 
 }  // namespace
 
+Segment without(std::span<const std::size_t> left_out, const Segment& run) {
+  const auto before = [left_out](std::size_t i) {
+    return static_cast<std::size_t>(std::lower_bound(left_out.begin(), left_out.end(), i) -
+                                    left_out.begin());
+  };
+  return {run.begin - before(run.begin), run.end - before(run.end)};
+}
+
 void set_aside(Points& points, Segmentation& found) {
   if (found.foreign.empty()) return;
   std::vector<double> memory;
@@ -25,15 +33,8 @@ void set_aside(Points& points, Segmentation& found) {
                                       &points.cosine, &points.sine, &points.x, &points.y}) {
     move_behind(found.foreign, *values, memory);
   }
-  const auto moved_before = [&](std::size_t i) {
-    return static_cast<std::size_t>(
-        std::lower_bound(found.foreign.begin(), found.foreign.end(), i) - found.foreign.begin());
-  };
   for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
-    for (Segment& run : *runs) {
-      run.begin -= moved_before(run.begin);
-      run.end -= moved_before(run.end);
-    }
+    for (Segment& run : *runs) run = without(found.foreign, run);
   }
   const std::size_t first = points.size() - found.foreign.size();
   for (std::size_t k = 0; k < found.foreign.size(); ++k) found.foreign[k] = first + k;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct Segmentation {
     foreign.clear();
   }
 };
+
+/// Where a run is once the points at these indices, which are ascending, are left out.
+[[nodiscard]] Segment without(std::span<const std::size_t> left_out, const Segment& run);
 
 /// Moves the foreign points behind all others, where they keep their order, so that segments and
 /// arcs have no other points than their own; `foreign` becomes the last points.

@@ -50,13 +50,9 @@ bool is_bent(const PointsView& points, const Segment& segment, const NormalLine&
 /// Whether one point apart from the others decides over the direction: no two neighbours of a wall
 /// are farther apart than half its length.
 bool hangs_on_one_point(const PointsView& points, const Segment& segment, double squared_length) {
-  const auto squared_gap = [&points](std::size_t i, std::size_t j) {
-    const double dx = points.x[j] - points.x[i];
-    const double dy = points.y[j] - points.y[i];
-    return dx * dx + dy * dy;
-  };
-  return 4.0 * squared_gap(segment.begin, segment.begin + 1) > squared_length ||
-         4.0 * squared_gap(segment.end - 2, segment.end - 1) > squared_length;
+  const std::size_t last = segment.end - 1;
+  return 4.0 * squared_distance(points, segment.begin, segment.begin + 1) > squared_length ||
+         4.0 * squared_distance(points, last - 1, last) > squared_length;
 }
 
 /// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0.
@@ -197,14 +193,7 @@ void SegmentBuilder::finish(Segmentation& found) {
     if (!left_out_.empty()) {
       std::sort(left_out_.begin(), left_out_.end());
       left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());
-      const auto before = [this](std::size_t i) {
-        return static_cast<std::size_t>(std::lower_bound(left_out_.begin(), left_out_.end(), i) -
-                                        left_out_.begin());
-      };
-      for (Piece& piece : pieces_) {
-        piece.segment.begin -= before(piece.segment.begin);
-        piece.segment.end -= before(piece.segment.end);
-      }
+      for (Piece& piece : pieces_) piece.segment = without(left_out_, piece.segment);
       leave_out(left_out_);
     }
     if (changed) fit_pieces(points_, pieces_);

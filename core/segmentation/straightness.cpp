@@ -28,17 +28,9 @@ SegmentationParameters with_flatness(SegmentationParameters parameters) {
   return parameters;
 }
 
-/// Sum over the points, from their orthogonal line.
+/// Sum of the squared distances of points from their line; their moments are about one of them.
 double squared_distances(const Moments& sums) {
-  const Symmetric2 m = CentralMoments(sums).scatter;
-  const double difference = m.xx - m.yy;
-  return 0.5 * (m.xx + m.yy - std::sqrt(difference * difference + 4.0 * m.xy * m.xy));
-}
-
-double squared_distance(const PointsView& points, std::size_t i, std::size_t j) {
-  const double dx = points.x[j] - points.x[i];
-  const double dy = points.y[j] - points.y[i];
-  return dx * dx + dy * dy;
+  return orthogonal_line(CentralMoments(sums)).across;
 }
 
 }  // namespace
@@ -118,14 +110,14 @@ std::size_t Straightener::best_split(const PointsView& points, const Segment& ra
 void Straightener::split(const PointsView& points, const Piece& piece) {
   bool joined = piece.joined;
   stack_.clear();
-  stack_.push_back({piece.segment, false});
+  stack_.push_back(piece.segment);
   const auto accept = [&](const Segment& segment, const BlockMeans& blocks,
                           const NormalLine& line) {
     add({.segment = segment, .joined = joined}, blocks.moments(), line);
     joined = true;
   };
   while (!stack_.empty()) {
-    const Segment range = stack_.back().segment;
+    const Segment range = stack_.back();
     stack_.pop_back();
     if (range.size() < fewest_) continue;
     if (trim(points, range)) {
@@ -153,8 +145,8 @@ void Straightener::split(const PointsView& points, const Piece& piece) {
       accept(range, blocks, test_blocks(blocks, sensor_, parameters_.flatness).line);
       continue;
     }
-    stack_.push_back({{vertex, range.end}, false});
-    stack_.push_back({{range.begin, vertex}, false});
+    stack_.push_back({vertex, range.end});
+    stack_.push_back({range.begin, vertex});
   }
 }
 
@@ -237,7 +229,7 @@ bool Straightener::grow(const PointsView& points) {
 }
 
 bool Straightener::run(const PointsView& points, const SensorModel& sensor,
-                       std::span<const BlockMeans> blocks, std::vector<Piece>& pieces,
+                       std::span<const TestedBlocks> blocks, std::vector<Piece>& pieces,
                        std::vector<std::size_t>& foreign) {
   sensor_ = sensor;
   tolerance_ = Tolerance(parameters_, sensor, points);
@@ -250,13 +242,13 @@ bool Straightener::run(const PointsView& points, const SensorModel& sensor,
       add(piece, {}, {});
       continue;
     }
-    const BlockTest test = test_blocks(blocks[k], sensor, parameters_.flatness);
+    const BlockTest& test = blocks[k].test;
     const PointsView own = points.subview(piece.segment.begin, piece.segment.end);
     if (test.crooked || farthest_from(test.line, own, tolerance_).beyond()) {
       split(points, piece);
       changed = true;
     } else {
-      add(piece, blocks[k].moments(), test.line);
+      add(piece, blocks[k].means.moments(), test.line);
     }
   }
 

@@ -25,8 +25,9 @@ class Straightener {
   /// behind something. Adds to `foreign` the points inside pieces that are not of their walls, in
   /// no order. `find_arcs` has been there before. Returns whether it changed anything; the pieces
   /// that it changed have no line.
-  bool run(const PointsView& points, const SensorModel& sensor, std::span<const BlockMeans> blocks,
-           std::vector<Piece>& pieces, std::vector<std::size_t>& foreign);
+  bool run(const PointsView& points, const SensorModel& sensor,
+           std::span<const TestedBlocks> blocks, std::vector<Piece>& pieces,
+           std::vector<std::size_t>& foreign);
 
  private:
   /// A piece with the moments that show whether it is one line with another.
@@ -34,10 +35,6 @@ class Straightener {
     Piece piece;
     Moments moments;
     NormalLine line;
-  };
-  struct Candidate {
-    Segment segment;
-    bool straight = false;
   };
 
   void add(const Piece& piece, const Moments& moments, const NormalLine& line);
@@ -55,7 +52,7 @@ class Straightener {
   SensorModel sensor_;
   Tolerance tolerance_;
   std::vector<Wall> walls_, joined_;
-  std::vector<Candidate> stack_;  // still to be examined, the leftmost on top
+  std::vector<Segment> stack_;  // still to be examined, the leftmost on top
   std::vector<std::size_t> kept_, next_, outside_;
   std::vector<Moments> sums_;
 };

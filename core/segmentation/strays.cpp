@@ -98,15 +98,12 @@ double range_noise(const PointsView& points) {
   std::array<double, sampled_triples> squares{};
   const std::size_t available = points.size() - 2;
   const std::size_t count = std::min(available, sampled_triples);
-  const auto sine_between = [&](std::size_t i, std::size_t j) {
-    return points.cosine[i] * points.sine[j] - points.sine[i] * points.cosine[j];
-  };
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = 1 + k * available / count;
     // A cos + B sin of three bearings is linear with these weights.
-    const double first = sine_between(i, i + 1);
-    const double last = sine_between(i - 1, i);
-    const double middle = sine_between(i - 1, i + 1);
+    const double first = sine_between(points, i, i + 1);
+    const double last = sine_between(points, i - 1, i);
+    const double middle = sine_between(points, i - 1, i + 1);
     const double error = points.inverse_range[i - 1] * first + points.inverse_range[i + 1] * last -
                          points.inverse_range[i] * middle;
     const double scaled = error * points.range[i] * points.range[i];

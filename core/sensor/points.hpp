@@ -61,6 +61,19 @@ struct Points {
   operator PointsView() const { return view(); }  // NOLINT(google-explicit-constructor)
 };
 
+/// Squared distance [m^2] of points `i` and `j`.
+[[nodiscard]] inline double squared_distance(const PointsView& points, std::size_t i,
+                                             std::size_t j) {
+  const double dx = points.x[j] - points.x[i];
+  const double dy = points.y[j] - points.y[i];
+  return dx * dx + dy * dy;
+}
+
+/// Sine of the angle from the bearing of point `i` to that of point `j`.
+[[nodiscard]] inline double sine_between(const PointsView& points, std::size_t i, std::size_t j) {
+  return points.cosine[i] * points.sine[j] - points.sine[i] * points.cosine[j];
+}
+
 /// Leaves out the values at these indices, which are ascending.
 template <class T>
 void erase_at(std::span<const std::size_t> left_out, std::vector<T>& values) {

@@ -62,7 +62,6 @@ class Apply : public testing::Test {
              std::vector<std::string> arguments = {}) {
     arguments.insert(arguments.begin(), {"apply", file.string(), "--json"});
     Process process = deployment_->quoin(arguments);
-    // Read on meanwhile: the reader keeps the last messages only.
     EXPECT_TRUE(recorder_->poll_until([&] { return process.wait(0ms).has_value(); }, 60s));
     EXPECT_EQ(process.wait(0ms), exit_code) << process.errors() << up_->errors();
     errors_ = process.errors();

@@ -13,19 +13,13 @@
 #include "core/corners/corner_finders.hpp"
 #include "core/extraction/extraction.hpp"
 #include "core/fitting/inverse_range.hpp"
-#include "core/segmentation/segmenters.hpp"
 #include "core/simulation/random.hpp"
+#include "tests/core/segmentation/segmenter_scans.hpp"
 
 namespace quoin {
 namespace {
 
 const std::vector<Eigen::Vector2d> room{{3.0, -1.5}, {3.0, 2.0}, {-2.0, 2.0}, {-2.0, -1.5}};
-
-std::vector<std::string> segmenter_names() {
-  std::vector<std::string> names;
-  for (const MethodInfo& method : Segmenters::descriptions()) names.push_back(method.name);
-  return names;
-}
 
 class RealScans : public testing::TestWithParam<std::string> {
  protected:

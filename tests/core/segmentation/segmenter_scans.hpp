@@ -4,16 +4,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "core/segmentation/segment.hpp"
+#include "core/segmentation/segmenters.hpp"
 #include "core/sensor/scan.hpp"
 #include "core/simulation/scanner.hpp"
 
 namespace quoin {
+
+inline std::vector<std::string> segmenter_names() {
+  std::vector<std::string> names;
+  for (const MethodInfo& method : Segmenters::descriptions()) names.push_back(method.name);
+  return names;
+}
 
 /// Points of one scan of `world` by a resting sensor, and where it rested.
 struct ScannedWorld {

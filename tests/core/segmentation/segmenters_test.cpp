@@ -16,12 +16,6 @@
 namespace quoin {
 namespace {
 
-std::vector<std::string> segmenter_names() {
-  std::vector<std::string> names;
-  for (const MethodInfo& method : Segmenters::descriptions()) names.push_back(method.name);
-  return names;
-}
-
 class EverySegmenter : public testing::TestWithParam<std::string> {
  protected:
   static Segmenter make(const ParameterSettings& settings = {}) {
