@@ -462,7 +462,8 @@ TEST_F(Network, ALosslessWriterGoesOnWhenTheLeaseOfAReaderThatWasCutHasEnded) {
   const msg::ServiceStatus sample;
   EXPECT_TRUE(tests::eventually([&] { return !writer.write(sample); })) << "it has to wait first";
   EXPECT_TRUE(tests::eventually([&] { return writer.write(sample); }));
-  EXPECT_EQ(writer.matched(), 0U);
+  // Fast DDS lets the writer go on before it counts the reader out.
+  EXPECT_TRUE(tests::eventually([&] { return writer.matched() == 0; }));
 }
 
 TEST_F(Network, UpStartsTheShareOfOneHostAndSaysWhichThereAre) {
