@@ -16,6 +16,18 @@ struct SensorModel {
   double bearing_stddev =
       0.00197;  ///< [rad] noise of each bearing (0.113 deg: 0.391 deg steps, uniform)
   double range_bias_stddev = 0.0;  ///< [m] error common to all ranges; 0 when unknown or calibrated
+  /// Noise of a range that grows with it, without unit: the variance of a range rho is
+  /// range_stddev^2 + (range_stddev_per_metre rho)^2.
+  double range_stddev_per_metre = 0.0;
+  /// [m] how far a wall is off a line by itself, over lengths that many rays share: it does not
+  /// average out with their number.
+  double flatness_stddev = 0.0;
+
+  /// Variance [m^2] of a range [m].
+  [[nodiscard]] double range_variance(double range) const {
+    const double growing = range_stddev_per_metre * range;
+    return range_stddev * range_stddev + growing * growing;
+  }
 };
 
 /// Points of a scan in polar and Cartesian form, structure of arrays, all of the same length. A
