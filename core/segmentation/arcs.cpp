@@ -35,14 +35,16 @@ class ArcFinder {
         floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
 
   /// Whether a piece that is crooked is bent like a circle.
-  [[nodiscard]] bool is_arc(const Piece& piece) const {
-    return circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
+  [[nodiscard]] bool is_arc(const Piece& piece, const BlockMeans& blocks) const {
+    const std::span<const BlockMean> means = blocks.means();
+    return are_on_circle(means.first(means.size() / 2), means.subspan(means.size() / 2)) &&
+           circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
   }
 
   /// Whether both are of one circle.
   [[nodiscard]] bool are_arc(const Piece& first, const BlockMeans& blocks_of_first,
                              const Piece& second, const BlockMeans& blocks_of_second) const {
-    if (!may_be_arc(first, second) || !are_means_on_circle(blocks_of_first, blocks_of_second)) {
+    if (!may_be_arc(first, second) || !are_on_circle(blocks_of_first.means(), blocks_of_second.means())) {
       return false;
     }
     const Segment both{first.segment.begin, second.segment.end};
@@ -61,19 +63,20 @@ class ArcFinder {
     if (!first.line || !second.line) return false;
     const double cosine =
         first.line->normal_x * second.line->normal_x + first.line->normal_y * second.line->normal_y;
-    const double turn = std::acos(std::min(std::abs(cosine), 1.0));
+    // The square of the angle, and a little less up to a right one.
+    const double rest = 1.0 - std::min(std::abs(cosine), 1.0);
+    const double turn_squared = 2.0 * rest + rest * rest / 3.0;
     const double a = length(first.segment);
     const double b = length(second.segment);
     const double longer = std::max(a, b);
-    const double sagitta = longer * longer * turn / (4.0 * (a + b));
-    return sagitta * sagitta <= largest_bow * largest_bow * tolerance_.largest;
+    const double part = longer * longer / (4.0 * (a + b));
+    return part * part * turn_squared <= largest_bow * largest_bow * tolerance_.largest;
   }
 
   /// Another cheap one: whether the means of blocks are near the circle through the first, the last
   /// and one between.
-  [[nodiscard]] bool are_means_on_circle(const BlockMeans& first, const BlockMeans& second) const {
-    const std::span<const BlockMean> before = first.means();
-    const std::span<const BlockMean> behind = second.means();
+  [[nodiscard]] bool are_on_circle(std::span<const BlockMean> before,
+                                   std::span<const BlockMean> behind) const {
     const BlockMean& a = before.front();
     const BlockMean& b = before.size() > behind.size() ? before.back() : behind.front();
     const BlockMean& c = behind.back();
@@ -89,15 +92,16 @@ class ArcFinder {
     if (!std::isfinite(radius)) return false;
     const double limit = flatness_ + largest_deviation * sensor_.range_stddev;
     const auto near = [&](const BlockMean& mean) {
-      return std::abs(std::hypot(mean.x - a.x - x, mean.y - a.y - y) - radius) <= limit;
+      const double dx = mean.x - a.x - x;
+      const double dy = mean.y - a.y - y;
+      return std::abs(std::sqrt(dx * dx + dy * dy) - radius) <= limit;
     };
     return std::all_of(before.begin(), before.end(), near) &&
            std::all_of(behind.begin(), behind.end(), near);
   }
 
   [[nodiscard]] double length(const Segment& segment) const {
-    return std::hypot(points_.x[segment.end - 1] - points_.x[segment.begin],
-                      points_.y[segment.end - 1] - points_.y[segment.begin]);
+    return std::sqrt(squared_distance(points_, segment.begin, segment.end - 1));
   }
 
   [[nodiscard]] bool circle_explains(const Segment& segment, double chi_square_of_lines) const {
@@ -164,7 +168,7 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
     }
     pieces[kept] = piece;
     blocks.push_back({own, test_blocks(own, sensor, flatness)});
-    if (blocks.back().test.crooked && finder.is_arc(piece)) make_round(pieces[kept]);
+    if (blocks.back().test.crooked && finder.is_arc(piece, own)) make_round(pieces[kept]);
     ++kept;
   }
   pieces.resize(kept);

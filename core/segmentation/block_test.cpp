@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/fitting/orthogonal.hpp"
-#include "core/sensor/multiversion.hpp"
 
 namespace quoin {
 namespace {
@@ -25,20 +24,29 @@ std::size_t block_count(std::size_t points) {
   return points >= many_points ? most_blocks : std::min(points, few_blocks);
 }
 
-QUOIN_MULTIVERSION
-void add_blocks(const double* __restrict x, const double* __restrict y, std::size_t count,
-                std::size_t blocks, BlockMean* out) {
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t begin = count * b / blocks;
-    const std::size_t end = count * (b + 1) / blocks;
-    double sum_x = 0.0;
-    double sum_y = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      sum_x += x[i];
-      sum_y += y[i];
+/// Side by side, so that no sum waits for its own last addition. Blocks differ by one point at most.
+template <std::size_t blocks>
+inline void add_blocks(const double* __restrict x, const double* __restrict y, std::size_t count,
+                       BlockMean* out) {
+  std::array<std::size_t, blocks + 1> begin{};
+  for (std::size_t b = 0; b <= blocks; ++b) begin[b] = count * b / blocks;
+  std::array<double, blocks> sum_x{};
+  std::array<double, blocks> sum_y{};
+  const std::size_t shortest = count / blocks;
+  for (std::size_t k = 0; k < shortest; ++k) {
+    for (std::size_t b = 0; b < blocks; ++b) {
+      sum_x[b] += x[begin[b] + k];
+      sum_y[b] += y[begin[b] + k];
     }
-    const auto weight = static_cast<double>(end - begin);
-    out[b] = {sum_x / weight, sum_y / weight, weight};
+  }
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t size = begin[b + 1] - begin[b];
+    if (size > shortest) {
+      sum_x[b] += x[begin[b] + shortest];
+      sum_y[b] += y[begin[b] + shortest];
+    }
+    const auto weight = static_cast<double>(size);
+    out[b] = {sum_x[b] / weight, sum_y[b] / weight, weight};
   }
 }
 
@@ -46,8 +54,15 @@ void add_blocks(const double* __restrict x, const double* __restrict y, std::siz
 
 BlockMeans::BlockMeans(const PointsView& points, const Segment& segment)
     : count_(block_count(segment.size())) {
-  add_blocks(&points.x[segment.begin], &points.y[segment.begin], segment.size(), count_,
-             means_.data());
+  const double* const x = &points.x[segment.begin];
+  const double* const y = &points.y[segment.begin];
+  if (count_ == most_blocks) {
+    add_blocks<most_blocks>(x, y, segment.size(), means_.data());
+  } else if (count_ == few_blocks) {
+    add_blocks<few_blocks>(x, y, segment.size(), means_.data());
+  } else {
+    for (std::size_t i = 0; i < count_; ++i) means_[i] = {x[i], y[i], 1.0};
+  }
   add_up();
 }
 

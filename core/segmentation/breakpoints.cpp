@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/sensor/multiversion.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {
@@ -58,9 +59,7 @@ float typical_step(const CoarsePoints& points) {
     const Point b = point_of(points, i + 1);
     steps[k] = std::abs(a.x * b.y - a.y * b.x) / (a.range * b.range);
   }
-  float* const middle = steps.data() + count / 2;
-  std::nth_element(steps.data(), middle, steps.data() + count);
-  return *middle;
+  return approximate_median({steps.data(), count});
 }
 
 QUOIN_MULTIVERSION

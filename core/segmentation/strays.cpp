@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/sensor/multiversion.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {
@@ -95,7 +96,7 @@ void pass_over_strays(const CoarsePoints& points, const BreakpointDetector& brea
 
 double range_noise(const PointsView& points) {
   if (points.size() < fewest_triples + 2) return 0.0;
-  std::array<double, sampled_triples> squares{};
+  std::array<float, sampled_triples> errors{};
   const std::size_t available = points.size() - 2;
   const std::size_t count = std::min(available, sampled_triples);
   for (std::size_t k = 0; k < count; ++k) {
@@ -108,11 +109,9 @@ double range_noise(const PointsView& points) {
                          points.inverse_range[i] * middle;
     const double scaled = error * points.range[i] * points.range[i];
     const double weights = middle * middle + first * first + last * last;
-    squares[k] = weights > 0.0 ? scaled * scaled / weights : 0.0;
+    errors[k] = weights > 0.0 ? static_cast<float>(std::abs(scaled) / std::sqrt(weights)) : 0.0F;
   }
-  double* const median = squares.data() + count / 2;
-  std::nth_element(squares.data(), median, squares.data() + count);
-  return std::sqrt(*median) / median_of_normal;
+  return static_cast<double>(approximate_median({errors.data(), count})) / median_of_normal;
 }
 
 }  // namespace quoin

@@ -5,9 +5,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+
+#include "core/sensor/multiversion.hpp"
 
 namespace quoin {
 namespace {
+
+constexpr float precision = 1e-3F;
+
+/// By bisection: it counts values, without a branch for any of them.
+QUOIN_MULTIVERSION
+void bisect(const float* values, int count, float& out) {
+  float low = 0.0F;
+  float high = 0.0F;
+  for (int i = 0; i < count; ++i) high = values[i] > high ? values[i] : high;
+  constexpr float largest = std::numeric_limits<float>::max();
+  high = high < largest ? high : largest;
+  while (high - low > precision * high) {
+    const float middle = 0.5F * (low + high);
+    int below = 0;
+    for (int i = 0; i < count; ++i) below += values[i] <= middle ? 1 : 0;
+    (2 * below > count ? high : low) = middle;
+  }
+  out = high;
+}
 
 double quantile_of_sorted(const std::vector<double>& sorted, double q) {
   if (sorted.empty()) return 0.0;
@@ -23,6 +45,12 @@ double quantile_of_sorted(const std::vector<double>& sorted, double q) {
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   return quantile_of_sorted(values, q);
+}
+
+float approximate_median(std::span<const float> values) {
+  float median = 0.0F;
+  bisect(values.data(), static_cast<int>(values.size()), median);
+  return median;
 }
 
 BoxSummary box_summary(const std::vector<double>& values) {
