@@ -44,7 +44,8 @@ class ArcFinder {
   /// Whether both are of one circle.
   [[nodiscard]] bool are_arc(const Piece& first, const BlockMeans& blocks_of_first,
                              const Piece& second, const BlockMeans& blocks_of_second) const {
-    if (!may_be_arc(first, second) || !are_on_circle(blocks_of_first.means(), blocks_of_second.means())) {
+    if (!may_be_arc(first, second) ||
+        !are_on_circle(blocks_of_first.means(), blocks_of_second.means())) {
       return false;
     }
     const Segment both{first.segment.begin, second.segment.end};
@@ -158,17 +159,20 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
   blocks.clear();
   std::size_t kept = 0;
   for (const Piece& piece : pieces) {
-    const BlockMeans own(points, piece.segment);
+    TestedBlocks& own = blocks.emplace_back();
+    own.means = BlockMeans(points, piece.segment);
     Piece* const before = kept > 0 && piece.joined ? &pieces[kept - 1] : nullptr;
-    if (before != nullptr && finder.are_arc(*before, blocks.back().means, piece, own)) {
+    if (before != nullptr &&
+        finder.are_arc(*before, blocks[kept - 1].means, piece, blocks[kept].means)) {
       before->segment.end = piece.segment.end;
       make_round(*before);
+      blocks.pop_back();
       blocks.back().means = BlockMeans(points, before->segment);
       continue;
     }
+    own.test = test_blocks(own.means, sensor, flatness);
     pieces[kept] = piece;
-    blocks.push_back({own, test_blocks(own, sensor, flatness)});
-    if (blocks.back().test.crooked && finder.is_arc(piece, own)) make_round(pieces[kept]);
+    if (own.test.crooked && finder.is_arc(piece, own.means)) make_round(pieces[kept]);
     ++kept;
   }
   pieces.resize(kept);

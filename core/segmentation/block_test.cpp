@@ -24,7 +24,8 @@ std::size_t block_count(std::size_t points) {
   return points >= many_points ? most_blocks : std::min(points, few_blocks);
 }
 
-/// Side by side, so that no sum waits for its own last addition. Blocks differ by one point at most.
+/// Side by side, so that no sum waits for its own last addition. Blocks differ by one point at
+/// most.
 template <std::size_t blocks>
 inline void add_blocks(const double* __restrict x, const double* __restrict y, std::size_t count,
                        BlockMean* out) {
@@ -39,14 +40,17 @@ inline void add_blocks(const double* __restrict x, const double* __restrict y, s
       sum_y[b] += y[begin[b] + k];
     }
   }
+  const auto weight = static_cast<double>(shortest);
+  const double scale = 1.0 / weight;
+  const double scale_of_longer = 1.0 / (weight + 1.0);
   for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t size = begin[b + 1] - begin[b];
-    if (size > shortest) {
-      sum_x[b] += x[begin[b] + shortest];
-      sum_y[b] += y[begin[b] + shortest];
+    if (begin[b] + shortest == begin[b + 1]) {
+      out[b] = {sum_x[b] * scale, sum_y[b] * scale, weight};
+    } else {
+      const std::size_t last = begin[b] + shortest;
+      out[b] = {(sum_x[b] + x[last]) * scale_of_longer, (sum_y[b] + y[last]) * scale_of_longer,
+                weight + 1.0};
     }
-    const auto weight = static_cast<double>(size);
-    out[b] = {sum_x[b] / weight, sum_y[b] / weight, weight};
   }
 }
 

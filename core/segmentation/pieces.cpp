@@ -149,8 +149,7 @@ void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& 
 
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    pieces[i].line.reset();
-    if (pieces[i].round) continue;
+    if (pieces[i].round || pieces[i].line) continue;
     const bool at_seam = i == 0 || i + 1 == pieces.size();
     if (!at_seam && !pieces[i].joined && !pieces[i + 1].joined) continue;
     const Segment& segment = pieces[i].segment;

@@ -33,8 +33,8 @@ inline constexpr std::size_t fewest_points = 3;
 /// unless a break of the surface is between them.
 void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& pieces);
 
-/// Fits a line to the inner points of each piece that may have a joined neighbour; points at the
-/// ends may be on that neighbour's wall.
+/// Fits a line to the inner points of each piece that has none and may have a joined neighbour;
+/// points at the ends may be on that neighbour's wall.
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces);
 
 /// Joins neighbours that are one line within the tolerance, which noise or clutter had split; best

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/segmentation/arcs.hpp"
 #include "core/segmentation/strays.hpp"
@@ -53,6 +52,22 @@ bool hangs_on_one_point(const PointsView& points, const Segment& segment, double
   const std::size_t last = segment.end - 1;
   return 4.0 * squared_distance(points, segment.begin, segment.begin + 1) > squared_length ||
          4.0 * squared_distance(points, last - 1, last) > squared_length;
+}
+
+/// Index among all points of the one at `i` among those that are left without `removed`, which are
+/// ascending.
+std::size_t index_with(std::span<const std::size_t> removed, std::size_t i) {
+  std::size_t before = 0;
+  std::size_t end = removed.size();
+  while (before < end) {
+    const std::size_t middle = before + (end - before) / 2;
+    if (removed[middle] - middle <= i) {
+      before = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return i + before;
 }
 
 /// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0.
@@ -120,17 +135,20 @@ SegmentBuilder::SegmentBuilder(const SegmentationParameters& parameters)
       breakpoints_(parameters.breakpoint_angle, parameters.max_line_gap),
       straightener_(parameters) {}
 
-/// These indices are ascending.
-void SegmentBuilder::leave_out(const std::vector<std::size_t>& left_out) {
-  const bool is_own = points_.range.data() == own_.range.data();
-  if (is_own) {
-    own_.erase(left_out);
-  } else {
-    index_.resize(points_.size());
-    std::iota(index_.begin(), index_.end(), std::size_t{0});
+/// `left_out` holds indices of the points that are left, ascending.
+void SegmentBuilder::leave_out(std::span<const std::size_t> left_out) {
+  if (removed_.empty()) {
     own_.assign_without(left_out, points_);
+    removed_.assign(left_out.begin(), left_out.end());
+  } else {
+    own_.erase(left_out);
+    const auto known = static_cast<std::ptrdiff_t>(removed_.size());
+    for (const std::size_t i : left_out) {
+      const std::span<const std::size_t> before(removed_.data(), static_cast<std::size_t>(known));
+      removed_.push_back(index_with(before, i));
+    }
+    std::inplace_merge(removed_.begin(), removed_.begin() + known, removed_.end());
   }
-  erase_at<std::size_t>(left_out, index_);
   points_ = own_;
 }
 
@@ -138,7 +156,7 @@ PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sens
   pieces_.clear();
   cluster_ = 0;
   points_ = scan;
-  index_.clear();
+  removed_.clear();
   sensor_ = sensor;
   left_out_.clear();
   find_fill(points_, sensor_, left_out_);
@@ -201,19 +219,13 @@ void SegmentBuilder::finish(Segmentation& found) {
   if (parameters_.refine) refine_boundaries(points_, min_points, tolerance_, closed_, pieces_);
 
   select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found);
-  if (index_.empty()) return;
-  const auto in_scan = [this](const Segment& run) {
-    return Segment{index_[run.begin], index_[run.end - 1] + 1};
-  };
+  if (removed_.empty()) return;
   for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
     for (Segment& run : *runs) {
-      const Segment whole = in_scan(run);
-      if (whole.size() != run.size()) {
-        for (std::size_t i = run.begin + 1; i < run.end; ++i) {
-          for (std::size_t k = index_[i - 1] + 1; k < index_[i]; ++k) found.foreign.push_back(k);
-        }
-      }
-      run = whole;
+      run = {index_with(removed_, run.begin), index_with(removed_, run.end - 1) + 1};
+      const auto first = std::lower_bound(removed_.begin(), removed_.end(), run.begin);
+      const auto last = std::lower_bound(first, removed_.end(), run.end);
+      found.foreign.insert(found.foreign.end(), first, last);
     }
   }
   std::sort(found.foreign.begin(), found.foreign.end());

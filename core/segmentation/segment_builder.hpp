@@ -45,14 +45,14 @@ class SegmentBuilder {
   void finish(Segmentation& found);
 
  private:
-  void leave_out(const std::vector<std::size_t>& points);
+  void leave_out(std::span<const std::size_t> left_out);
 
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
   Straightener straightener_;
   PointsView points_;
-  Points own_;                      // those of the scan without some
-  std::vector<std::size_t> index_;  // in the scan, of own points
+  Points own_;                        // those of the scan without `removed_`, when there are any
+  std::vector<std::size_t> removed_;  // in the scan, ascending
   std::vector<std::size_t> left_out_;
   CoarsePoints coarse_points_;
   SensorModel sensor_;

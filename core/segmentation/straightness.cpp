@@ -221,9 +221,11 @@ bool Straightener::grow(const PointsView& points) {
     const NormalLine& line = walls_[w].line;
     const std::size_t first = own.begin;
     const std::size_t last = own.end - 1;
+    const std::size_t size = own.size();
     own.end += reach(line, last, end - own.end, [last](std::size_t k) { return last + k; });
     own.begin -=
         reach(line, first, own.begin - begin, [first](std::size_t k) { return first - k; });
+    if (own.size() > size) walls_[w].piece.line.reset();
   }
   return grown;
 }
@@ -265,6 +267,7 @@ bool Straightener::run(const PointsView& points, const SensorModel& sensor,
     }
     Wall& last = joined_.back();
     last.piece.segment.end = wall.piece.segment.end;
+    last.piece.line.reset();
     last.moments += wall.moments;
     last.line = orthogonal_line(last.moments).line;
     changed = true;
