@@ -23,10 +23,15 @@ double angle_to(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }
 
-/// Of the bearing between the rays of a line [rad]; 0 when unknown.
+/// Between the rays of a line [rad]; 0 when unknown.
 double ray_step(const LineSegment& line) {
   if (line.points < 2) return 0.0;
   return std::abs(angle_to(line.start, line.end)) / static_cast<double>(line.points - 1);
+}
+
+/// Whether the bearings of two points differ by at most `reach` [rad], a small angle.
+bool are_near(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double reach) {
+  return std::abs(a.x() * b.y() - a.y() * b.x()) <= reach * a.dot(b);
 }
 
 // From the last ray of a wall to its corner. Segmenters leave out the point next to a corner, and a
@@ -36,9 +41,7 @@ constexpr double steps_to_corner = 5.0;
 /// In (0, 2 pi), clockwise from the first wall over the sensor's side to the second.
 double opening_of(const Eigen::Vector2d& corner, const LineSegment& first,
                   const LineSegment& second) {
-  const Eigen::Vector2d to_sensor = -corner;
-  const double opening =
-      -angle_to(first.start - corner, to_sensor) - angle_to(to_sensor, second.end - corner);
+  const double opening = angle_to(second.end - corner, first.start - corner);
   return opening > 0.0 ? opening : opening + 2.0 * pi;
 }
 
@@ -61,9 +64,9 @@ std::optional<NoCornerReason> Adjacent::find(std::span<const LineSegment> lines,
   corner.gap = (b.start - a.end).norm();
   corner.extrapolation =
       std::max((estimate->position - a.end).norm(), (estimate->position - b.start).norm());
-  const double reach = steps_to_corner * std::min(ray_step(a), ray_step(b));
-  corner.seen = std::abs(angle_to(a.end, estimate->position)) <= reach &&
-                std::abs(angle_to(estimate->position, b.start)) <= reach;
+  const double reach = steps_to_corner * std::min(ray_steps_[first], ray_steps_[second]);
+  corner.seen =
+      are_near(a.end, estimate->position, reach) && are_near(estimate->position, b.start, reach);
   if (!corner.seen) {
     if (!(corner.gap <= parameters_.max_gap)) return NoCornerReason::wide_gap;
     if (!(corner.extrapolation <= parameters_.max_extrapolation)) return NoCornerReason::far_away;
@@ -89,6 +92,8 @@ void Adjacent::operator()(std::span<const LineSegment> lines, double range_bias_
     normals_.bearing[i] = lines[i].estimate.line.alpha;
   }
   compute_cartesian(normals_);
+  ray_steps_.clear();
+  for (const LineSegment& line : lines) ray_steps_.push_back(ray_step(line));
 
   Corner corner;
   for (std::size_t first = 0; first < count; ++first) {

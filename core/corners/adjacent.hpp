@@ -58,7 +58,8 @@ class Adjacent {
 
   Parameters parameters_;
   double sine_of_min_angle_ = 0.0;
-  Points normals_;  // x and y of the unit normals of the lines
+  Points normals_;                 // x and y of the unit normals of the lines
+  std::vector<double> ray_steps_;  // of the lines [rad]
 };
 
 }  // namespace quoin
