@@ -17,8 +17,9 @@ namespace {
 constexpr double smallest_angle = 0.26;  // [rad] 15 deg about the centre
 // Chi square may be so many of its standard deviations above what is expected.
 constexpr double largest_surplus = 4.0;
-// So much must the chi square of lines be below that of a circle. What is uncertain is no corner.
-constexpr double clearly_better = 10.0;
+// So much must the chi square of two lines be below that of a circle: they have a place to split
+// that was searched for. What is uncertain is no corner.
+constexpr double clearly_better = 20.0;
 // A bow of more tolerances would have been split.
 constexpr double largest_bow = 3.0;
 // Of a mean from a circle through three of them, in those of a point.
@@ -38,18 +39,19 @@ class ArcFinder {
   [[nodiscard]] bool is_arc(const Piece& piece, const BlockMeans& blocks) const {
     const std::span<const BlockMean> means = blocks.means();
     return are_on_circle(means.first(means.size() / 2), means.subspan(means.size() / 2)) &&
-           circle_explains(piece.segment, chi_square_of_line(piece.segment) - 2.0 * clearly_better);
+           circle_explains(piece.segment, chi_square_of_line(piece.segment) - clearly_better);
   }
 
   /// Whether both are of one circle.
-  [[nodiscard]] bool are_arc(const Piece& first, const BlockMeans& blocks_of_first,
-                             const Piece& second, const BlockMeans& blocks_of_second) const {
-    if (!may_be_arc(first, second) ||
-        !are_on_circle(blocks_of_first.means(), blocks_of_second.means())) {
+  [[nodiscard]] bool are_arc(const Piece& first, const TestedBlocks& blocks_of_first,
+                             const Piece& second, const TestedBlocks& blocks_of_second) const {
+    if (!second.joined && !are_close(first, second)) return false;
+    if (!may_be_arc(first, blocks_of_first.test.line, second, blocks_of_second.test.line) ||
+        !are_on_circle(blocks_of_first.means.means(), blocks_of_second.means.means())) {
       return false;
     }
     const Segment both{first.segment.begin, second.segment.end};
-    return circle_explains(both, chi_square_of(first) + chi_square_of(second));
+    return circle_explains(both, chi_square_of(first) + chi_square_of(second) + clearly_better);
   }
 
  private:
@@ -57,20 +59,28 @@ class ArcFinder {
     return points_.subview(segment.begin, segment.end);
   }
 
-  /// A cheap test first. Chords of lengths a and b that meet at the angle t are of a circle of
-  /// radius (a + b) / (2 t), and each has the sagitta length^2 / (8 radius).
-  [[nodiscard]] bool may_be_arc(const Piece& first, const Piece& second) const {
+  /// Noise breaks a near surface between any two points.
+  [[nodiscard]] bool are_close(const Piece& first, const Piece& second) const {
+    return squared_distance(points_, first.segment.end - 1, second.segment.begin) <=
+           tolerance_.largest;
+  }
+
+  /// A cheap test first. Chords of lengths a and b, a chord of length g between them, that meet at
+  /// the angle t are of a circle of radius (a + b + 2 g) / (2 t), and each has the sagitta length^2
+  /// / (8 radius).
+  [[nodiscard]] bool may_be_arc(const Piece& first, const NormalLine& line_of_first,
+                                const Piece& second, const NormalLine& line_of_second) const {
     if (first.round || second.round) return true;
-    if (!first.line || !second.line) return false;
-    const double cosine =
-        first.line->normal_x * second.line->normal_x + first.line->normal_y * second.line->normal_y;
+    const double cosine = line_of_first.normal_x * line_of_second.normal_x +
+                          line_of_first.normal_y * line_of_second.normal_y;
     // The square of the angle, and a little less up to a right one.
     const double rest = 1.0 - std::min(std::abs(cosine), 1.0);
     const double turn_squared = 2.0 * rest + rest * rest / 3.0;
     const double a = length(first.segment);
     const double b = length(second.segment);
+    const double gap = length({first.segment.end - 1, second.segment.begin + 1});
     const double longer = std::max(a, b);
-    const double part = longer * longer / (4.0 * (a + b));
+    const double part = longer * longer / (4.0 * (a + b + 2.0 * gap));
     return part * part * turn_squared <= largest_bow * largest_bow * tolerance_.largest;
   }
 
@@ -105,7 +115,7 @@ class ArcFinder {
     return std::sqrt(squared_distance(points_, segment.begin, segment.end - 1));
   }
 
-  [[nodiscard]] bool circle_explains(const Segment& segment, double chi_square_of_lines) const {
+  [[nodiscard]] bool circle_explains(const Segment& segment, double limit) const {
     const PointsView own = view(segment);
     if (own.size() <= 3) return false;
     const auto circle = fit_circle(own, sensor_);
@@ -113,7 +123,7 @@ class ArcFinder {
     const double freedom = static_cast<double>(own.size()) - 3.0;
     const double chi_square = quoin::chi_square(*circle, own, sensor_, floor_);
     return chi_square <= freedom + largest_surplus * std::sqrt(2.0 * freedom) &&
-           chi_square <= chi_square_of_lines + clearly_better;
+           chi_square <= limit;
   }
 
   [[nodiscard]] double chi_square_of(const Piece& piece) const {
@@ -161,16 +171,15 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
   for (const Piece& piece : pieces) {
     TestedBlocks& own = blocks.emplace_back();
     own.means = BlockMeans(points, piece.segment);
-    Piece* const before = kept > 0 && piece.joined ? &pieces[kept - 1] : nullptr;
-    if (before != nullptr &&
-        finder.are_arc(*before, blocks[kept - 1].means, piece, blocks[kept].means)) {
-      before->segment.end = piece.segment.end;
-      make_round(*before);
+    own.test = test_blocks(own.means, sensor, flatness);
+    if (kept > 0 && finder.are_arc(pieces[kept - 1], blocks[kept - 1], piece, own)) {
+      Piece& arc = pieces[kept - 1];
+      arc.segment.end = piece.segment.end;
+      make_round(arc);
       blocks.pop_back();
-      blocks.back().means = BlockMeans(points, before->segment);
+      blocks.back().means = BlockMeans(points, arc.segment);
       continue;
     }
-    own.test = test_blocks(own.means, sensor, flatness);
     pieces[kept] = piece;
     if (own.test.crooked && finder.is_arc(piece, own.means)) make_round(pieces[kept]);
     ++kept;
