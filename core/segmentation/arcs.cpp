@@ -20,6 +20,8 @@ constexpr double largest_surplus = 4.0;
 // So much must the chi square of two lines be below that of a circle: they have a place to split
 // that was searched for. What is uncertain is no corner.
 constexpr double clearly_better = 20.0;
+// The chi square of a line falls by more with a bow once in 1000 times that there is none.
+constexpr double significantly_better = 10.828;
 // A bow of more tolerances would have been split.
 constexpr double largest_bow = 3.0;
 // Of a mean from a circle through three of them, in those of a point.
@@ -51,7 +53,9 @@ class ArcFinder {
       return false;
     }
     const Segment both{first.segment.begin, second.segment.end};
-    return circle_explains(both, chi_square_of(first) + chi_square_of(second) + clearly_better);
+    const double chi_square_of_two = chi_square_of(first) + chi_square_of(second);
+    return circle_explains(both, std::min(chi_square_of_two + clearly_better,
+                                          chi_square_of_line(both) - significantly_better));
   }
 
  private:
