@@ -18,6 +18,8 @@ constexpr double fewest_kept = 0.75;
 constexpr double significant_rise = 25.0;
 constexpr std::size_t fewest_on_a_side = 3;
 constexpr std::size_t places_to_look = 32;
+// Pieces between two parts of a wall, which strays have made of its points.
+constexpr std::size_t most_passed = 3;
 // Tolerances that a short wall on a long one's line may end beside it.
 constexpr double far_off = 4.0;
 // Two lines of one wall exceed it once in 1000 times.
@@ -150,11 +152,41 @@ void Straightener::split(const PointsView& points, const Piece& piece) {
   }
 }
 
-/// Whether it is too short for a wall: a leg, or a few points by chance.
-bool Straightener::is_small(const PointsView& points, const Wall& wall) const {
+/// Whether it is no wall of its own beside the wall of this line: too short for one, a leg or a few
+/// points by chance, or mostly points of that wall.
+bool Straightener::is_part(const PointsView& points, const Wall& wall,
+                           const NormalLine& line) const {
   const Segment& own = wall.piece.segment;
   const double enough = 0.5 * parameters_.min_length;
-  return squared_distance(points, own.begin, own.end - 1) < enough * enough;
+  if (squared_distance(points, own.begin, own.end - 1) < enough * enough) return true;
+  std::size_t beyond = 0;
+  for (std::size_t i = own.begin; i < own.end; ++i) {
+    beyond += is_beyond(line, points, i, tolerance_) ? 1 : 0;
+  }
+  return 2 * beyond < own.size();
+}
+
+/// How many of the last walls are passed over to join the one before them to this one; nothing when
+/// none is one with it.
+std::optional<std::size_t> Straightener::find_partner(const PointsView& points, const Wall& wall) {
+  const std::size_t most = std::min(joined_.size(), most_passed + 1);
+  for (std::size_t passed = most; passed-- > 0;) {
+    const std::span<const Wall> last = std::span<const Wall>(joined_).last(passed + 1);
+    const Wall& partner = last.front();
+    const std::size_t known = outside_.size();
+    if (!join(points, partner, wall, outside_)) continue;
+    Moments both = partner.moments;
+    both += wall.moments;
+    const NormalLine line = orthogonal_line(both).line;
+    const std::span<const Wall> between = last.subspan(1);
+    if (std::all_of(between.begin(), between.end(), [&](const Wall& each) {
+          return !each.piece.round && is_part(points, each, line);
+        })) {
+      return passed;
+    }
+    outside_.resize(known);
+  }
+  return std::nullopt;
 }
 
 /// Whether both are one wall; what is between them and not on it is added to `foreign`.
@@ -258,13 +290,12 @@ bool Straightener::run(const PointsView& points, const SensorModel& sensor,
 
   joined_.clear();
   for (const Wall& wall : walls_) {
-    const bool over_small = joined_.size() > 1 && is_small(points, joined_.back()) &&
-                            join(points, joined_[joined_.size() - 2], wall, outside_);
-    if (over_small) joined_.pop_back();
-    if (!over_small && (joined_.empty() || !join(points, joined_.back(), wall, outside_))) {
+    const auto passed = find_partner(points, wall);
+    if (!passed) {
       joined_.push_back(wall);
       continue;
     }
+    joined_.resize(joined_.size() - *passed);
     Wall& last = joined_.back();
     last.piece.segment.end = wall.piece.segment.end;
     last.piece.line.reset();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,9 @@ class Straightener {
   void split(const PointsView& points, const Piece& piece);
   [[nodiscard]] bool trim(const PointsView& points, const Segment& range);
   [[nodiscard]] std::size_t best_split(const PointsView& points, const Segment& range);
-  [[nodiscard]] bool is_small(const PointsView& points, const Wall& wall) const;
+  [[nodiscard]] bool is_part(const PointsView& points, const Wall& wall,
+                             const NormalLine& line) const;
+  [[nodiscard]] std::optional<std::size_t> find_partner(const PointsView& points, const Wall& wall);
   [[nodiscard]] bool join(const PointsView& points, const Wall& first, const Wall& second,
                           std::vector<std::size_t>& foreign) const;
 
