@@ -14,6 +14,7 @@ namespace {
 constexpr double significance = 2.0;  // standard deviations of the sagitta
 // What a scan shows of its noise is itself an estimate.
 constexpr double clearly_more = 1.5;
+constexpr double many = 0.05;           // strays, of all points
 constexpr double largest_noise = 0.06;  // [m] what scatters more is clutter
 
 /// A bow of sagitta s over its chord has its inner half by s / 2 beside its two outer quarters, and
@@ -171,6 +172,7 @@ PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sens
   left_out_.clear();
   pass_over_strays(coarse_points_, breakpoints_,
                    static_cast<std::size_t>(parameters_.min_points) - 1, clusters_, left_out_);
+  many_strays_ = static_cast<double>(left_out_.size()) > many * static_cast<double>(points_.size());
   if (!left_out_.empty()) {
     leave_out(left_out_);
     coarse_points_.erase(left_out_);
@@ -207,7 +209,8 @@ void SegmentBuilder::finish(Segmentation& found) {
     drop_small(min_points, min_points, pieces_);
     find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_, blocks_);
     left_out_.clear();
-    const bool changed = straightener_.run(points_, sensor_, blocks_, pieces_, left_out_);
+    const bool changed =
+        straightener_.run(points_, sensor_, blocks_, many_strays_, pieces_, left_out_);
     if (!left_out_.empty()) {
       std::sort(left_out_.begin(), left_out_.end());
       left_out_.erase(std::unique(left_out_.begin(), left_out_.end()), left_out_.end());

@@ -60,8 +60,9 @@ class SegmentBuilder {
   std::vector<Segment> clusters_;
   std::vector<Piece> pieces_;
   std::vector<TestedBlocks> blocks_;  // of the pieces
-  bool closed_ = false;               // the surface goes on from the last point to the first
-  std::size_t cluster_ = 0;           // of the last piece
+  bool many_strays_ = false;
+  bool closed_ = false;      // the surface goes on from the last point to the first
+  std::size_t cluster_ = 0;  // of the last piece
 };
 
 }  // namespace quoin

@@ -22,6 +22,8 @@ constexpr std::size_t places_to_look = 32;
 constexpr std::size_t most_passed = 3;
 // Tolerances that a short wall on a long one's line may end beside it.
 constexpr double far_off = 4.0;
+// Of a tolerance: three standard deviations.
+constexpr double doubtful = 0.75;
 // Two lines of one wall exceed it once in 1000 times.
 constexpr double same_line = 13.816;
 
@@ -262,9 +264,29 @@ bool Straightener::grow(const PointsView& points) {
   return grown;
 }
 
+/// Where many rays return from before the walls, some do so from just before them.
+void Straightener::leave_out_doubtful(const PointsView& points) {
+  SegmentationParameters narrow = parameters_;
+  narrow.noise_factor *= doubtful;
+  const Tolerance tolerance(narrow, sensor_, points);
+  for (Wall& wall : joined_) {
+    if (wall.piece.round) continue;
+    const auto is_doubtful = [&](std::size_t i) {
+      return is_beyond(wall.line, points, i, tolerance);
+    };
+    Segment& own = wall.piece.segment;
+    while (own.size() > fewest_ && is_doubtful(own.begin)) ++own.begin;
+    while (own.size() > fewest_ && is_doubtful(own.end - 1)) --own.end;
+    for (std::size_t i = own.begin; i < own.end; ++i) {
+      if (is_doubtful(i)) outside_.push_back(i);
+    }
+    wall.piece.line.reset();
+  }
+}
+
 bool Straightener::run(const PointsView& points, const SensorModel& sensor,
-                       std::span<const TestedBlocks> blocks, std::vector<Piece>& pieces,
-                       std::vector<std::size_t>& foreign) {
+                       std::span<const TestedBlocks> blocks, bool many_strays,
+                       std::vector<Piece>& pieces, std::vector<std::size_t>& foreign) {
   sensor_ = sensor;
   tolerance_ = Tolerance(parameters_, sensor, points);
   walls_.clear();
@@ -301,6 +323,10 @@ bool Straightener::run(const PointsView& points, const SensorModel& sensor,
     last.piece.line.reset();
     last.moments += wall.moments;
     last.line = orthogonal_line(last.moments).line;
+    changed = true;
+  }
+  if (many_strays) {
+    leave_out_doubtful(points);
     changed = true;
   }
   pieces.clear();

@@ -24,10 +24,10 @@ class Straightener {
   /// Splits pieces whose points refute that they are one wall, leaves out points at their ends,
   /// gives them the free points beside them that are on their walls, and joins walls that go on
   /// behind something. Adds to `foreign` the points inside pieces that are not of their walls, in
-  /// no order. `find_arcs` has been there before. Returns whether it changed anything; the pieces
-  /// that it changed have no line.
+  /// no order; after `many_strays` of a scan also those that are doubtful. `find_arcs` has been
+  /// there before. Returns whether it changed anything; the pieces that it changed have no line.
   bool run(const PointsView& points, const SensorModel& sensor,
-           std::span<const TestedBlocks> blocks, std::vector<Piece>& pieces,
+           std::span<const TestedBlocks> blocks, bool many_strays, std::vector<Piece>& pieces,
            std::vector<std::size_t>& foreign);
 
  private:
@@ -49,6 +49,7 @@ class Straightener {
                           std::vector<std::size_t>& foreign) const;
 
   [[nodiscard]] bool grow(const PointsView& points);
+  void leave_out_doubtful(const PointsView& points);
 
   SegmentationParameters parameters_;  // with the flatness for the distance
   std::size_t fewest_;
