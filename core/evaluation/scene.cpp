@@ -80,7 +80,8 @@ void measure(const VisibleWall& wall, const SensorModel& noise, Random& random, 
   const std::size_t count = wall.bearings.size();
   points.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    points.range[i] = wall.ranges[i] + noise.range_stddev * random.normal();
+    points.range[i] =
+        wall.ranges[i] + std::sqrt(noise.range_variance(wall.ranges[i])) * random.normal();
     points.bearing[i] = wall.bearings[i] + noise.bearing_stddev * random.normal();
   }
   compute_cartesian(points);

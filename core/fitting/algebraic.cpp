@@ -107,12 +107,12 @@ inline PointJacobian inverse_jacobian(double c, double s, double z, double a, do
 QUOIN_MULTIVERSION
 void add_up_equal_noise(const double* __restrict cosine, const double* __restrict sine,
                         const double* __restrict x, const double* __restrict y, std::size_t count,
-                        double a, double b, double range_variance, double bearing_variance,
-                        Symmetric2& out) {
+                        double a, double b, double range_variance, double range_growth,
+                        double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   for (std::size_t i = 0; i < count; ++i) {
-    add_noise(sums, equal_jacobian(cosine[i], sine[i], x[i], y[i], a, b), range_variance,
-              bearing_variance);
+    add_noise(sums, equal_jacobian(cosine[i], sine[i], x[i], y[i], a, b),
+              range_variance + range_growth * (x[i] * x[i] + y[i] * y[i]), bearing_variance);
   }
   out = sums;
 }
@@ -129,7 +129,8 @@ struct InverseNoise {
 QUOIN_MULTIVERSION
 void add_up_inverse_noise(const double* __restrict cosine, const double* __restrict sine,
                           const double* __restrict inverse_range, std::size_t count, double a,
-                          double b, double range_stddev, double bearing_stddev, InverseNoise& out) {
+                          double b, double range_variance, double range_growth,
+                          double bearing_stddev, InverseNoise& out) {
   InverseNoise sums;
   const double double_a = 2.0 * bearing_stddev * a;
   const double double_b = 2.0 * bearing_stddev * b;
@@ -138,9 +139,10 @@ void add_up_inverse_noise(const double* __restrict cosine, const double* __restr
     const double s = sine[i];
     const double z = inverse_range[i];
     const double w = double_a * c + double_b * s - bearing_stddev * z;
-    const double range = range_stddev * z * z;
+    const double square = z * z;
+    const double range = square * (range_variance * square + range_growth);
     const double bearing = w * w;
-    const double difference = range * range - bearing;
+    const double difference = range - bearing;
     sums.bearing += bearing;
     sums.cc += c * (c * difference);
     sums.cs += c * (s * difference);
@@ -154,16 +156,17 @@ Symmetric2 independent_noise(const PointsView& points, PointWeights weights,
   const double a = line.a();
   const double b = line.b();
   const double variance = sensor.bearing_stddev * sensor.bearing_stddev;
+  const double range = sensor.range_stddev * sensor.range_stddev;
+  const double growth = sensor.range_stddev_per_metre * sensor.range_stddev_per_metre;
   if (weights == PointWeights::equal) {
     Symmetric2 sums;
     add_up_equal_noise(points.cosine.data(), points.sine.data(), points.x.data(), points.y.data(),
-                       points.size(), a, b, sensor.range_stddev * sensor.range_stddev, variance,
-                       sums);
+                       points.size(), a, b, range, growth, variance, sums);
     return sums;
   }
   InverseNoise sums;
   add_up_inverse_noise(points.cosine.data(), points.sine.data(), points.inverse_range.data(),
-                       points.size(), a, b, sensor.range_stddev, sensor.bearing_stddev, sums);
+                       points.size(), a, b, range, growth, sensor.bearing_stddev, sums);
   // The normal equations M q = v make v the sum of (c, s) w.
   const auto count = static_cast<double>(points.size());
   const Moments& m = line.moments;
@@ -174,21 +177,25 @@ Symmetric2 independent_noise(const PointsView& points, PointWeights weights,
           sums.ss + sums.bearing - variance * (a * va + a * m.x)};
 }
 
-/// If one range error and one bearing error were common to all points: the Jacobians are summed
-/// first. This is WCTLS eq. (5) and (13) with a Jacobian of two columns.
+/// If one range error, in standard deviations of each range, and one bearing error were common to
+/// all points: the Jacobians are summed first. This is WCTLS eq. (5) and (13) with a Jacobian of
+/// two columns.
 Symmetric2 common_noise(const PointsView& points, PointWeights weights, const AlgebraicLine& line,
                         const SensorModel& sensor) {
   PointJacobian sum;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += weights == PointWeights::equal
-               ? equal_jacobian(points.cosine[i], points.sine[i], points.x[i], points.y[i],
-                                line.a(), line.b())
-               : inverse_jacobian(points.cosine[i], points.sine[i], points.inverse_range[i],
-                                  line.a(), line.b());
+    PointJacobian jacobian = weights == PointWeights::equal
+                                 ? equal_jacobian(points.cosine[i], points.sine[i], points.x[i],
+                                                  points.y[i], line.a(), line.b())
+                                 : inverse_jacobian(points.cosine[i], points.sine[i],
+                                                    points.inverse_range[i], line.a(), line.b());
+    const double range_stddev = std::sqrt(sensor.range_variance(points.range[i]));
+    jacobian.range_x *= range_stddev;
+    jacobian.range_y *= range_stddev;
+    sum += jacobian;
   }
   Symmetric2 noise;
-  add_noise(noise, sum, sensor.range_stddev * sensor.range_stddev,
-            sensor.bearing_stddev * sensor.bearing_stddev);
+  add_noise(noise, sum, 1.0, sensor.bearing_stddev * sensor.bearing_stddev);
   return noise;
 }
 

@@ -16,10 +16,9 @@ namespace quoin {
                                                                const SensorModel& sensor,
                                                                const OrthogonalLine& fit,
                                                                CovarianceMode mode) {
-  const double bearing_stddev = mode == CovarianceMode::propagated ? sensor.bearing_stddev : 0.0;
-  return orthogonal_covariance(points, PointWeights::inverse_square_range, fit,
-                               sensor.range_stddev * sensor.range_stddev,
-                               bearing_stddev * bearing_stddev);
+  SensorModel counted = sensor;
+  if (mode == CovarianceMode::as_published) counted.bearing_stddev = 0.0;
+  return orthogonal_covariance(points, PointWeights::inverse_square_range, fit, counted);
 }
 
 /// Weighted orthogonal fit of Arras and Siegwart with the weights 1 / (sigma_rho rho sigma_theta)^2

@@ -77,17 +77,18 @@ QUOIN_MULTIVERSION
 void add_up_noise(const double* __restrict u, const double* __restrict v,
                   const double* __restrict u_ray, const double* __restrict v_ray,
                   const double* __restrict inverse_range, std::size_t count, bool weighted,
-                  Regression fit, double range_variance, double bearing_variance, Symmetric2& out) {
+                  Regression fit, double range_variance, double range_growth,
+                  double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   if (weighted) {
     for (std::size_t i = 0; i < count; ++i) {
       add_noise(sums, jacobian_of<true>(u[i], v[i], u_ray[i], v_ray[i], inverse_range[i], fit),
-                range_variance, bearing_variance);
+                range_variance + range_growth * (u[i] * u[i] + v[i] * v[i]), bearing_variance);
     }
   } else {
     for (std::size_t i = 0; i < count; ++i) {
-      add_noise(sums, jacobian_of<false>(u[i], v[i], u_ray[i], v_ray[i], 1.0, fit), range_variance,
-                bearing_variance);
+      add_noise(sums, jacobian_of<false>(u[i], v[i], u_ray[i], v_ray[i], 1.0, fit),
+                range_variance + range_growth * (u[i] * u[i] + v[i] * v[i]), bearing_variance);
     }
   }
   out = sums;
@@ -146,12 +147,13 @@ AxisRegression fit_axis(const PointsView& points, AxisWeights weights,
 Symmetric2 axis_covariance(const PointsView& points, AxisWeights weights, const AxisRegression& fit,
                            const SensorModel& sensor) {
   const Axes axes(points, fit.y_on_x);
-  const WeightVariances variances(sensor);
+  const WeightVariances variances = WeightVariances::of_middle(sensor, points);
   Symmetric2 sums;
   add_up_noise(axes.u, axes.v, axes.u_ray, axes.v_ray, points.inverse_range.data(), points.size(),
                weights == AxisWeights::conditional,
                {fit.slope, fit.mean, fit.intercept, axes.turn, variances.range, variances.bearing},
                sensor.range_stddev * sensor.range_stddev,
+               sensor.range_stddev_per_metre * sensor.range_stddev_per_metre,
                sensor.bearing_stddev * sensor.bearing_stddev, sums);
   const double s = 1.0 / fit.spread;
   const double w = 1.0 / fit.weight;

@@ -31,6 +31,7 @@ enum class AxisWeights {
   conditional,  ///< inverse of the variance of v given u, CWLF eq. (23) and (34)
 };
 
+/// The weights are of one range variance, `variances.range`.
 [[nodiscard]] AxisRegression fit_axis(const PointsView& points, AxisWeights weights,
                                       const WeightVariances& variances);
 

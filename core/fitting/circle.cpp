@@ -88,7 +88,8 @@ Residual residual_of(const Circle& circle, const PointsView& points, std::size_t
   const double cosine = nx * points.cosine[i] + ny * points.sine[i];
   const double across = nx * points.y[i] - ny * points.x[i];
   return {nx, ny, from_center - circle.radius,
-          variances.range * cosine * cosine + variances.bearing * across * across};
+          variances.range_at(points.range[i] * points.range[i]) * cosine * cosine +
+              variances.bearing * across * across};
 }
 
 /// One step; false when the points do not determine it.

@@ -8,7 +8,7 @@ namespace quoin {
 
 /// First step of the method: the line.
 [[nodiscard]] inline AxisRegression cwlf_line(const PointsView& points, const SensorModel& sensor) {
-  return fit_axis(points, AxisWeights::conditional, WeightVariances(sensor));
+  return fit_axis(points, AxisWeights::conditional, WeightVariances::of_middle(sensor, points));
 }
 
 /// Second step: the covariance of (alpha, r) of that line.
@@ -20,7 +20,7 @@ namespace quoin {
     return to_normal_form(fit, axis_covariance(points, AxisWeights::conditional, fit, sensor));
   }
   // Eq. (31) and (32); the sums hold the weights times both variances.
-  const WeightVariances variances(sensor);
+  const WeightVariances variances = WeightVariances::of_middle(sensor, points);
   const double scale = variances.range * variances.bearing;
   return to_normal_form(fit, {scale / fit.spread, 0.0, scale / fit.weight});
 }

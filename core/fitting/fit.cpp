@@ -13,7 +13,8 @@ namespace {
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict cosine, const double* __restrict sine,
             const double* __restrict range, std::size_t count, double normal_x, double normal_y,
-            double r, double range_variance, double bearing_variance, double& out) {
+            double r, double range_variance, double growing_variance, double bearing_variance,
+            double& out) {
   // A ray along the line never meets it; 88 degrees is as far as the expansion is of use.
   constexpr double smallest_cosine = 0.03;
   constexpr double smallest_variance = std::numeric_limits<double>::min();
@@ -24,8 +25,8 @@ void add_up(const double* __restrict cosine, const double* __restrict sine,
     const double sin_phi = sine[i] * normal_x - cosine[i] * normal_y;
     const double residual = range[i] * cos_phi - r;
     const double tangential = r * sin_phi / (cos_phi > smallest_cosine ? cos_phi : smallest_cosine);
-    const double variance =
-        range_variance * cos_phi * cos_phi + bearing_variance * tangential * tangential;
+    const double variance = range_variance * cos_phi * cos_phi + growing_variance +
+                            bearing_variance * tangential * tangential;
     sum += residual * residual / (variance > smallest_variance ? variance : smallest_variance);
   }
   out = sum;
@@ -54,9 +55,12 @@ LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& no
 
 double chi_square(const Line& line, const PointsView& points, const SensorModel& sensor) {
   const Eigen::Vector2d normal = line.normal();
+  // What grows with the range that is expected, r / cos(phi), is the same for all after the
+  // multiplication.
+  const double growing = sensor.range_stddev_per_metre * line.r;
   double sum = 0.0;
   add_up(points.cosine.data(), points.sine.data(), points.range.data(), points.size(), normal.x(),
-         normal.y(), line.r, sensor.range_stddev * sensor.range_stddev,
+         normal.y(), line.r, sensor.range_stddev * sensor.range_stddev, growing * growing,
          sensor.bearing_stddev * sensor.bearing_stddev, sum);
   return sum;
 }

@@ -42,7 +42,7 @@ class InverseRange {
                                  0.5 * (points.y.front() + points.y.back()));
     NormalLine line = normal_line(q);
     for (int step = 1;; ++step) {
-      const NormalResiduals sums = normal_residuals(points, line, anchor, variances);
+      const NormalResiduals sums = normal_residuals(points, line, anchor, variances, line);
       // Fisher's scoring: the information stands for the Hessian.
       const auto change = solve2x2(sums.information, -sums.gradient);
       if (!change) return FitResult::failed(reason_of_singularity(points));

@@ -17,7 +17,7 @@ NormalLine first_guess(const CentralMoments& m, const WeightVariances& variances
   const double c = distance > 0.0 ? m.mean_x / distance : 1.0;
   const double s = distance > 0.0 ? m.mean_y / distance : 0.0;
   const double square = distance * distance + m.trace() / m.weight;
-  const double along = 1.0 / std::sqrt(variances.range);
+  const double along = 1.0 / std::sqrt(variances.range_at(square));
   const double across = 1.0 / std::sqrt(variances.bearing * square);
   // Spread along and across the ray, in standard deviations.
   const Symmetric2& p = m.scatter;
@@ -48,10 +48,15 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
   const Eigen::Vector2d anchor(m.mean_x, m.mean_y);
   NormalLine line = first_guess(m, variances);
   NormalLine accepted = line;
+  // Variances that grow with the range stay as they are while the sum is minimised, and are taken
+  // anew at its minimum.
+  NormalLine variance_line = line;
+  int renewals = variances.range_growth > 0.0 ? 2 : 0;
   double lowest = std::numeric_limits<double>::infinity();
   Eigen::Vector2d step = Eigen::Vector2d::Zero();
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
-    const NormalResiduals sums = normal_residuals_with_hessian(points, line, anchor, variances);
+    const NormalResiduals sums =
+        normal_residuals_with_hessian(points, line, anchor, variances, variance_line);
     // A step that leads uphill, by more than rounding, is shortened.
     if (sums.value > lowest * (1.0 + 1e-9)) {
       step *= 0.25;
@@ -73,6 +78,11 @@ FitResult MaximumLikelihood::operator()(const PointsView& points, const SensorMo
     line = moved(line, anchor, step);
     if (-step.dot(sums.gradient) <= small_step ||
         (std::abs(step.x()) < rounding && std::abs(step.y()) < rounding * size)) {
+      if (renewals-- > 0) {
+        variance_line = line;
+        lowest = std::numeric_limits<double>::infinity();
+        continue;
+      }
       FitResult result = fitted(line, anchor, sums);
       if (result.ok()) result.iterations = iteration;
       return result;

@@ -10,13 +10,21 @@
 namespace quoin {
 namespace {
 
-template <bool second_derivatives>
-[[gnu::always_inline]] inline void add_up(const double* __restrict cosine,
-                                          const double* __restrict sine,
-                                          const double* __restrict range, std::size_t count,
-                                          double nx, double ny, double r, double t_anchor,
-                                          double offset, double range_variance,
-                                          double bearing_variance, NormalResiduals& out) {
+// Where a ray runs along the line, the range at which it meets it is limited; noise along the ray
+// is of no effect there.
+constexpr double smallest_cosine = 0.03;
+
+/// Variance of the range at which a ray meets a line, where it grows with the range.
+struct GrowingVariance {
+  NormalLine met;
+  double growth = 0.0;
+};
+
+template <bool second_derivatives, bool growing>
+[[gnu::always_inline]] inline void add_up(
+    const double* __restrict cosine, const double* __restrict sine, const double* __restrict range,
+    std::size_t count, double nx, double ny, double r, double t_anchor, double offset,
+    double fixed_variance, GrowingVariance more, double bearing_variance, NormalResiduals& out) {
   NormalResiduals sums;
   double gradient_x = 0.0;
   double gradient_y = 0.0;
@@ -26,6 +34,13 @@ template <bool second_derivatives>
     const double d = range[i] * c - r;  // d' = t, d'' = -(d + offset)
     const double t = range[i] * s - t_anchor;
     const double across = range[i] * range[i] * bearing_variance;
+    double range_variance = fixed_variance;
+    if constexpr (growing) {
+      const double cos_phi = cosine[i] * more.met.normal_x + sine[i] * more.met.normal_y;
+      const double met =
+          more.met.offset / (std::abs(cos_phi) > smallest_cosine ? cos_phi : smallest_cosine);
+      range_variance += more.growth * met * met;
+    }
     const double w = 1.0 / (range_variance * c * c + across * s * s);
     const double half_v1 = w * s * c * (range_variance - across);  // v' / 2 v
     const double wd = w * d;
@@ -54,16 +69,34 @@ QUOIN_MULTIVERSION
 void add_up_first(const double* cosine, const double* sine, const double* range, std::size_t count,
                   double nx, double ny, double r, double t_anchor, double range_variance,
                   double bearing_variance, NormalResiduals& out) {
-  add_up<false>(cosine, sine, range, count, nx, ny, r, t_anchor, 0.0, range_variance,
-                bearing_variance, out);
+  add_up<false, false>(cosine, sine, range, count, nx, ny, r, t_anchor, 0.0, range_variance, {},
+                       bearing_variance, out);
+}
+
+QUOIN_MULTIVERSION
+void add_up_first_growing(const double* cosine, const double* sine, const double* range,
+                          std::size_t count, double nx, double ny, double r, double t_anchor,
+                          double range_variance, GrowingVariance more, double bearing_variance,
+                          NormalResiduals& out) {
+  add_up<false, true>(cosine, sine, range, count, nx, ny, r, t_anchor, 0.0, range_variance, more,
+                      bearing_variance, out);
 }
 
 QUOIN_MULTIVERSION
 void add_up_second(const double* cosine, const double* sine, const double* range, std::size_t count,
                    double nx, double ny, double r, double t_anchor, double offset,
                    double range_variance, double bearing_variance, NormalResiduals& out) {
-  add_up<true>(cosine, sine, range, count, nx, ny, r, t_anchor, offset, range_variance,
-               bearing_variance, out);
+  add_up<true, false>(cosine, sine, range, count, nx, ny, r, t_anchor, offset, range_variance, {},
+                      bearing_variance, out);
+}
+
+QUOIN_MULTIVERSION
+void add_up_second_growing(const double* cosine, const double* sine, const double* range,
+                           std::size_t count, double nx, double ny, double r, double t_anchor,
+                           double offset, double range_variance, GrowingVariance more,
+                           double bearing_variance, NormalResiduals& out) {
+  add_up<true, true>(cosine, sine, range, count, nx, ny, r, t_anchor, offset, range_variance, more,
+                     bearing_variance, out);
 }
 
 }  // namespace
@@ -80,21 +113,40 @@ NormalLine moved(const NormalLine& line, const Eigen::Vector2d& anchor,
 }
 
 NormalResiduals normal_residuals(const PointsView& points, const NormalLine& line,
-                                 const Eigen::Vector2d& anchor, const WeightVariances& variances) {
+                                 const Eigen::Vector2d& anchor, const WeightVariances& variances,
+                                 const NormalLine& variance_line) {
   NormalResiduals sums;
-  add_up_first(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-               line.normal_x, line.normal_y, line.offset, line.along(anchor.x(), anchor.y()),
-               variances.range, variances.bearing, sums);
+  const double t_anchor = line.along(anchor.x(), anchor.y());
+  if (variances.range_growth > 0.0) {
+    add_up_first_growing(points.cosine.data(), points.sine.data(), points.range.data(),
+                         points.size(), line.normal_x, line.normal_y, line.offset, t_anchor,
+                         variances.range, {variance_line, variances.range_growth},
+                         variances.bearing, sums);
+  } else {
+    add_up_first(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
+                 line.normal_x, line.normal_y, line.offset, t_anchor, variances.range,
+                 variances.bearing, sums);
+  }
   return sums;
 }
 
 NormalResiduals normal_residuals_with_hessian(const PointsView& points, const NormalLine& line,
                                               const Eigen::Vector2d& anchor,
-                                              const WeightVariances& variances) {
+                                              const WeightVariances& variances,
+                                              const NormalLine& variance_line) {
   NormalResiduals sums;
-  add_up_second(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
-                line.normal_x, line.normal_y, line.offset, line.along(anchor.x(), anchor.y()),
-                -line.distance(anchor.x(), anchor.y()), variances.range, variances.bearing, sums);
+  const double t_anchor = line.along(anchor.x(), anchor.y());
+  const double offset = -line.distance(anchor.x(), anchor.y());
+  if (variances.range_growth > 0.0) {
+    add_up_second_growing(points.cosine.data(), points.sine.data(), points.range.data(),
+                          points.size(), line.normal_x, line.normal_y, line.offset, t_anchor,
+                          offset, variances.range, {variance_line, variances.range_growth},
+                          variances.bearing, sums);
+  } else {
+    add_up_second(points.cosine.data(), points.sine.data(), points.range.data(), points.size(),
+                  line.normal_x, line.normal_y, line.offset, t_anchor, offset, variances.range,
+                  variances.bearing, sums);
+  }
   return sums;
 }
 

@@ -15,6 +15,10 @@ namespace quoin {
 /// bearing. That sum, v differentiated too, is what remains of the likelihood once the unknown true
 /// position of each point on the line has been eliminated; its minimum is not biased by the noise
 /// of the bearings, unlike the sum of squared radial residuals at the measured bearings.
+///
+/// A variance that grows with the range is that of the range at which the ray meets
+/// `variance_line`, a line that does not turn with this one: a variance by measured ranges would
+/// favour those that are too short.
 struct NormalResiduals {
   double value = 0.0;       ///< sum of d^2 / v
   Symmetric2 information;   ///< of Fisher, with the estimated position of each point along the line
@@ -26,12 +30,14 @@ struct NormalResiduals {
 
 [[nodiscard]] NormalResiduals normal_residuals(const PointsView& points, const NormalLine& line,
                                                const Eigen::Vector2d& anchor,
-                                               const WeightVariances& variances);
+                                               const WeightVariances& variances,
+                                               const NormalLine& variance_line);
 
 [[nodiscard]] NormalResiduals normal_residuals_with_hessian(const PointsView& points,
                                                             const NormalLine& line,
                                                             const Eigen::Vector2d& anchor,
-                                                            const WeightVariances& variances);
+                                                            const WeightVariances& variances,
+                                                            const NormalLine& variance_line);
 
 /// Turned by `step.x()` [rad] about the anchor and moved by `step.y()` [m].
 [[nodiscard]] NormalLine moved(const NormalLine& line, const Eigen::Vector2d& anchor,

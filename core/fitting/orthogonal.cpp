@@ -37,20 +37,20 @@ void add_up_noise(const double* __restrict cosine, const double* __restrict sine
                   const double* __restrict x, const double* __restrict y,
                   const double* __restrict inverse_range, std::size_t count, bool weighted,
                   double nx, double ny, double mean_x, double mean_y, double range_variance,
-                  double bearing_variance, Symmetric2& out) {
+                  double range_growth, double bearing_variance, Symmetric2& out) {
   Symmetric2 sums;
   if (weighted) {
     for (std::size_t i = 0; i < count; ++i) {
       add_noise(sums,
                 jacobian_of<true>(cosine[i], sine[i], x[i], y[i], inverse_range[i], nx, ny, mean_x,
                                   mean_y),
-                range_variance, bearing_variance);
+                range_variance + range_growth * (x[i] * x[i] + y[i] * y[i]), bearing_variance);
     }
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       add_noise(sums,
                 jacobian_of<false>(cosine[i], sine[i], x[i], y[i], 1.0, nx, ny, mean_x, mean_y),
-                range_variance, bearing_variance);
+                range_variance + range_growth * (x[i] * x[i] + y[i] * y[i]), bearing_variance);
     }
   }
   out = sums;
@@ -119,13 +119,14 @@ OrthogonalLine fit_orthogonal(const PointsView& points, PointWeights weights) {
 }
 
 Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights weights,
-                                      const OrthogonalLine& fit, double range_variance,
-                                      double bearing_variance) {
+                                      const OrthogonalLine& fit, const SensorModel& sensor) {
   Symmetric2 sums;
   add_up_noise(points.cosine.data(), points.sine.data(), points.x.data(), points.y.data(),
                points.inverse_range.data(), points.size(),
                weights == PointWeights::inverse_square_range, fit.line.normal_x, fit.line.normal_y,
-               fit.moments.mean_x, fit.moments.mean_y, range_variance, bearing_variance, sums);
+               fit.moments.mean_x, fit.moments.mean_y, sensor.range_stddev * sensor.range_stddev,
+               sensor.range_stddev_per_metre * sensor.range_stddev_per_metre,
+               sensor.bearing_stddev * sensor.bearing_stddev, sums);
   const double alpha = -1.0 / (fit.along - fit.across);
   const double offset = 1.0 / fit.moments.weight;
   return from_offset_at(

@@ -48,7 +48,7 @@ struct OrthogonalLine {
 /// of each point, the weights differentiated with the range.
 [[nodiscard]] Eigen::Matrix2d orthogonal_covariance(const PointsView& points, PointWeights weights,
                                                     const OrthogonalLine& fit,
-                                                    double range_variance, double bearing_variance);
+                                                    const SensorModel& sensor);
 
 /// Textbook covariance of (alpha, r), which takes the scale of the noise from the residuals. Equal
 /// weights, at least three points.

@@ -35,9 +35,7 @@ class Pca {
     if (!fit.ok()) return FitResult::failed(fit.failure);
     return fitted(fit, from_residuals
                            ? residual_covariance(fit)
-                           : orthogonal_covariance(points, PointWeights::equal, fit,
-                                                   sensor.range_stddev * sensor.range_stddev,
-                                                   sensor.bearing_stddev * sensor.bearing_stddev));
+                           : orthogonal_covariance(points, PointWeights::equal, fit, sensor));
   }
 
  private:

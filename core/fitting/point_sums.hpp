@@ -113,16 +113,36 @@ enum class PointWeights {
 /// Summed about the first point, which keeps the digits of far walls. At least one point.
 [[nodiscard]] CentralMoments central_moments(const PointsView& points, PointWeights weights);
 
-/// Variances of range [m^2] and bearing [rad^2] to weight points with. A sensor model may say that
-/// there is no noise; a range is never taken to be better than a micrometre nor a bearing than a
-/// nanoradian, so that the weights stay finite.
+/// Variances to weight points with. A sensor model may say that there is no noise; a range is never
+/// taken to be better than a micrometre nor a bearing than a nanoradian, so that the weights stay
+/// finite.
 struct WeightVariances {
-  double range;
-  double bearing;
+  double range;         ///< [m^2] the part that all ranges have
+  double range_growth;  ///< without unit: times the squared range, the part that grows with it
+  double bearing;       ///< [rad^2]
 
   explicit WeightVariances(const SensorModel& sensor)
       : range(std::max(sensor.range_stddev * sensor.range_stddev, 1e-12)),
+        range_growth(sensor.range_stddev_per_metre * sensor.range_stddev_per_metre),
         bearing(std::max(sensor.bearing_stddev * sensor.bearing_stddev, 1e-18)) {}
+
+  /// [m^2] of a range whose square is `squared_range` [m^2].
+  [[nodiscard]] double range_at(double squared_range) const {
+    return range + range_growth * squared_range;
+  }
+
+  /// The same variance for all ranges: that of the point in the middle. What a paper weights its
+  /// points with knows no other.
+  [[nodiscard]] static WeightVariances of_middle(const SensorModel& sensor,
+                                                 const PointsView& points) {
+    WeightVariances variances(sensor);
+    if (points.size() > 0) {
+      const double range = points.range[points.size() / 2];
+      variances.range = variances.range_at(range * range);
+    }
+    variances.range_growth = 0.0;
+    return variances;
+  }
 };
 
 /// Derivatives of two quantities x and y with respect to the range and the bearing of one point.

@@ -49,7 +49,7 @@ struct Quantity {
   std::array<UnitSuffix, 4> suffixes;
 };
 
-constexpr std::array<Quantity, 6> quantities{{
+constexpr std::array<Quantity, 7> quantities{{
     {"m", "a length", "m, cm or mm", {{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}}},
     {"rad",
      "an angle",
@@ -57,6 +57,7 @@ constexpr std::array<Quantity, 6> quantities{{
      {{{"rad", 1.0}, {"mrad", 1e-3}, {"deg", radians_per_degree}, {}}}},
     {"s", "a time", "s, ms, us or min", {{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}}}},
     {"Hz", "a frequency", "Hz or kHz", {{{"Hz", 1.0}, {"kHz", 1e3}, {}, {}}}},
+    {"m/m", "a share", "%, mm/m or m/m", {{{"m/m", 1.0}, {"%", 1e-2}, {"mm/m", 1e-3}, {}}}},
     {"m/s", "a speed", "m/s or mm/s", {{{"m/s", 1.0}, {"mm/s", 1e-3}, {}, {}}}},
     {"rad/s",
      "an angular speed",
@@ -201,10 +202,11 @@ double parse_real(const ParameterInfo& info, const std::string& text) {
   if (error != std::errc{} || !std::isfinite(number))
     fail(info, quoted(value) + " is not a number");
   const std::string_view suffix = trimmed({end, static_cast<std::size_t>(last - end)});
-  // A suffix starts with a letter; anything else is a number that goes on wrongly, such as 1.2.3.
-  const bool starts_with_letter = suffix.empty() || (suffix[0] >= 'a' && suffix[0] <= 'z') ||
-                                  (suffix[0] >= 'A' && suffix[0] <= 'Z');
-  if (!starts_with_letter) fail(info, quoted(value) + " is not a number");
+  // A suffix is % or starts with a letter; anything else is a number that goes on wrongly, such as
+  // 1.2.3.
+  const bool is_unit = suffix.empty() || suffix == "%" || (suffix[0] >= 'a' && suffix[0] <= 'z') ||
+                       (suffix[0] >= 'A' && suffix[0] <= 'Z');
+  if (!is_unit) fail(info, quoted(value) + " is not a number");
   number *= unit_factor(info, suffix);
   check_limits(info, number, value);
   return number;

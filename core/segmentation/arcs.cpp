@@ -105,7 +105,8 @@ class ArcFinder {
     const double y = (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / area;
     const double radius = std::sqrt(x * x + y * y);
     if (!std::isfinite(radius)) return false;
-    const double limit = flatness_ + largest_deviation * sensor_.range_stddev;
+    const double limit =
+        flatness_ + largest_deviation * std::sqrt(sensor_.range_variance(std::hypot(b.x, b.y)));
     const auto near = [&](const BlockMean& mean) {
       const double dx = mean.x - a.x - x;
       const double dy = mean.y - a.y - y;
@@ -148,7 +149,8 @@ class ArcFinder {
       const double along = fit.line.along(own.x[i], own.y[i]);
       const double cosine = fit.line.normal_x * own.cosine[i] + fit.line.normal_y * own.sine[i];
       sum += distance * distance /
-             (variances.range * cosine * cosine + variances.bearing * along * along + floor_);
+             (variances.range_at(own.range[i] * own.range[i]) * cosine * cosine +
+              variances.bearing * along * along + floor_);
     }
     return sum;
   }

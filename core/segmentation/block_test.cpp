@@ -107,7 +107,9 @@ BlockTest test_blocks(const BlockMeans& blocks, const SensorModel& sensor, doubl
     const double along = fit.line.along(mean.x, mean.y);
     const double range = fit.line.offset * sensor.range_stddev;
     const double bearing = along * sensor.bearing_stddev;
-    const double variance = range * range / (mean.x * mean.x + mean.y * mean.y) + bearing * bearing;
+    const double growing = fit.line.offset * sensor.range_stddev_per_metre;
+    const double variance =
+        range * range / (mean.x * mean.x + mean.y * mean.y) + growing * growing + bearing * bearing;
     chi_square += mean.weight * distance * distance / variance;
   }
   const Limits& limits = length < short_wall ? limits_of_short : limits_of_long;

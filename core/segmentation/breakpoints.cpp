@@ -35,7 +35,7 @@ inline bool is_break(const Point& a, const Point& b, const Criterion& criterion)
   const float dx = b.x - a.x;
   const float dy = b.y - a.y;
   const float limit = range * (sine_step + criterion.bearing_noise * (a.range * b.range)) +
-                      criterion.range_noise * sine_rest;
+                      (criterion.range_noise + criterion.range_growth * range) * sine_rest;
   const float squared = dx * dx + dy * dy;
   const float excess = squared * (sine_rest * sine_rest) - limit * limit;
   const bool no_ray_is_missing = sine_step <= criterion.wide_step * (a.range * b.range);
@@ -89,6 +89,7 @@ bool BreakpointDetector::find(const CoarsePoints& points, const SensorModel& sen
   criterion_ = {.sine_lambda = std::sin(lambda),
                 .cosine_lambda = std::cos(lambda),
                 .range_noise = 3.0F * static_cast<float>(sensor.range_stddev),
+                .range_growth = 3.0F * static_cast<float>(sensor.range_stddev_per_metre),
                 .bearing_noise = 3.0F * static_cast<float>(sensor.bearing_stddev),
                 .wide_step = std::sin(std::min(wide, largest_lambda)),
                 .gap_squared = gap_squared_};

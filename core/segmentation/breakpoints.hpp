@@ -13,7 +13,7 @@ namespace quoin {
 /// Adaptive breakpoint detector: Borges and Aldon, "Line extraction in 2D range images for mobile
 /// robotics", 2004. Two neighbours belong to different surfaces when they are farther apart than
 ///
-///   D_max = r sin(dphi) / sin(lambda - dphi) + 3 range_stddev,
+///   D_max = r sin(dphi) / sin(lambda - dphi) + 3 (range_stddev + range_stddev_per_metre r),
 ///
 /// the distance on a wall that is met at the grazing angle lambda, plus noise. Here r is the
 /// smaller of the two ranges, so that the answer does not depend on the sense of rotation. A step
@@ -36,6 +36,7 @@ class BreakpointDetector {
     float sine_lambda;
     float cosine_lambda;
     float range_noise;    ///< [m] 3 range_stddev
+    float range_growth;   ///< 3 range_stddev_per_metre
     float bearing_noise;  ///< [rad] 3 bearing_stddev
     float wide_step;      ///< sine of the step beyond which rays are missing
     float gap_squared;    ///< [m^2] that a surface passes over there

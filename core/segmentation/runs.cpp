@@ -47,7 +47,7 @@ std::optional<double> squared_mahalanobis(const Moments& first, const Moments& s
   const double range = std::sqrt(x * x + y * y);
   if (!(range > 0.0)) return std::nullopt;
   return rise * deviations_in_tolerance * deviations_in_tolerance /
-         tolerance.squared(fit.line.offset / range, fit.line.along(x, y));
+         tolerance.squared(fit.line.offset / range, fit.line.offset, fit.line.along(x, y));
 }
 
 bool is_peak(std::span<const double> values, const Segment& range, std::size_t i, std::size_t reach,

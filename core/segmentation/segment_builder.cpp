@@ -40,10 +40,9 @@ bool is_bent(const PointsView& points, const Segment& segment, const NormalLine&
       points.cosine[middle] * chord.normal_x + points.sine[middle] * chord.normal_y;
   const double sin_phi =
       points.sine[middle] * chord.normal_x - points.cosine[middle] * chord.normal_y;
-  const double across = sensor.range_stddev * cos_phi;
+  const double across = sensor.range_variance(points.range[middle]) * cos_phi * cos_phi;
   const double along = sensor.bearing_stddev * points.range[middle] * sin_phi;
-  const double variance =
-      16.0 * (across * across + along * along) / static_cast<double>(segment.size());
+  const double variance = 16.0 * (across + along * along) / static_cast<double>(segment.size());
   return sagitta * sagitta > significance * significance * variance;
 }
 
@@ -164,8 +163,11 @@ PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sens
   if (!left_out_.empty()) leave_out(left_out_);
 
   const double noise = range_noise(points_);
-  if (noise > clearly_more * sensor_.range_stddev && noise <= largest_noise) {
-    sensor_.range_stddev = noise;
+  const double declared = declared_range_noise(points_, sensor_);
+  if (noise > clearly_more * declared && noise <= largest_noise) {
+    sensor_.range_stddev_per_metre *= declared > 0.0 ? noise / declared : 1.0;
+    sensor_.range_stddev *= declared > 0.0 ? noise / declared : 1.0;
+    if (!(declared > 0.0)) sensor_.range_stddev = noise;
   }
   coarse_points_.assign(points_);
   closed_ = !breakpoints_.find(coarse_points_, sensor_, clusters_);

@@ -89,8 +89,9 @@ std::size_t Straightener::best_split(const PointsView& points, const Segment& ra
   const OrthogonalLine whole = orthogonal_line(CentralMoments(sums_.back(), x, y));
   if (!whole.ok() || range.size() < 2 * fewest_on_a_side) return 0;
   const double middle = std::hypot(whole.moments.mean_x, whole.moments.mean_y);
-  const double variance = tolerance_.squared(whole.line.offset / middle, whole.tangential_mean()) /
-                          (deviations_in_tolerance * deviations_in_tolerance);
+  const double variance =
+      tolerance_.squared(whole.line.offset / middle, whole.line.offset, whole.tangential_mean()) /
+      (deviations_in_tolerance * deviations_in_tolerance);
   double largest = significant_rise * variance;
   std::size_t best = 0;
   const auto look = [&](std::size_t k) {

@@ -52,7 +52,8 @@ void find_fill(const PointsView& points, const SensorModel& sensor,
     std::size_t end = begin + 1;
     while (end < range.size() && range[end] == range[begin]) ++end;
     if (end - begin >= std::size_t{fewest_equal} &&
-        variation_of_wall(points, {begin, end}) > deviations_of_variation * sensor.range_stddev) {
+        variation_of_wall(points, {begin, end}) >
+            deviations_of_variation * std::sqrt(sensor.range_variance(range[begin]))) {
       values.push_back(range[begin]);
     }
     begin = end;
@@ -112,6 +113,13 @@ double range_noise(const PointsView& points) {
     errors[k] = weights > 0.0 ? static_cast<float>(std::abs(scaled) / std::sqrt(weights)) : 0.0F;
   }
   return static_cast<double>(approximate_median({errors.data(), count})) / median_of_normal;
+}
+
+double declared_range_noise(const PointsView& points, const SensorModel& sensor) {
+  if (!(sensor.range_stddev_per_metre > 0.0) || points.size() == 0) return sensor.range_stddev;
+  double sum = 0.0;
+  for (const double range : points.range) sum += range * range;
+  return std::sqrt(sensor.range_variance(std::sqrt(sum / static_cast<double>(points.size()))));
 }
 
 }  // namespace quoin

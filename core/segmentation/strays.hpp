@@ -28,4 +28,7 @@ void pass_over_strays(const CoarsePoints& points, const BreakpointDetector& brea
 /// wall. The median, so that edges do not count. 0 when there are too few points.
 [[nodiscard]] double range_noise(const PointsView& points);
 
+/// The same by the sensor model: [m] root of the mean variance over the points.
+[[nodiscard]] double declared_range_noise(const PointsView& points, const SensorModel& sensor);
+
 }  // namespace quoin

@@ -36,9 +36,9 @@ bool is_edge(const PointsView& points, std::size_t i, const Eigen::Vector2d& q, 
   const double slope = (q.x() * points.sine[i] - q.y() * points.cosine[i]) * predicted;
   // Noise of the bearing is noise of the range by the slope. A straight line extrapolated from n
   // points by one has about 4 / n of the variance of a point.
-  const double noise =
-      (tolerance.range + tolerance.bearing * predicted * predicted * slope * slope) *
-      (1.0 + 4.0 / static_cast<double>(count));
+  const double noise = (tolerance.range + (tolerance.growth + tolerance.bearing * slope * slope) *
+                                              predicted * predicted) *
+                       (1.0 + 4.0 / static_cast<double>(count));
   const double difference = points.range[i] - predicted;
   return difference * difference > std::max(tolerance.base, noise);
 }

@@ -69,7 +69,7 @@ void farthest_raised(const double* __restrict inverse_range, const double* __res
     const double normal = line.normal_x * x[i] + line.normal_y * y[i];
     const double along = line.normal_x * y[i] - line.normal_y * x[i];
     const double distance = normal - line.offset;
-    return distance * distance - tolerance.squared(normal * inverse_range[i], along);
+    return distance * distance - tolerance.squared(normal * inverse_range[i], normal, along);
   });
 }
 
@@ -96,10 +96,11 @@ Tolerance::Tolerance(const SegmentationParameters& parameters, const SensorModel
                      const PointsView& points)
     : base(square(parameters.split_distance)),
       range(square(parameters.noise_factor * sensor.range_stddev)),
+      growth(square(parameters.noise_factor * sensor.range_stddev_per_metre)),
       bearing(square(parameters.noise_factor * sensor.bearing_stddev)) {
   double farthest = 0.0;
   find_largest(points.range.data(), points.size(), farthest);
-  largest = std::max({base, range, bearing * farthest * farthest});
+  largest = std::max({base, range + growth * farthest * farthest, bearing * farthest * farthest});
 }
 
 FarthestPoint farthest_from(const NormalLine& line, const PointsView& points,

@@ -16,6 +16,7 @@ namespace quoin {
 struct Tolerance {
   double base = 0.0;     ///< [m^2] split_distance squared
   double range = 0.0;    ///< [m^2] noise_factor standard deviations of the range, squared
+  double growth = 0.0;   ///< the same of what grows with the range, for each squared metre of it
   double bearing = 0.0;  ///< [rad^2] the same of the bearing
   double largest = 0.0;  ///< [m^2] of any point and line of the scan
 
@@ -27,10 +28,11 @@ struct Tolerance {
   /// Whether noise counts for any point; if not, all tolerances are `base`.
   [[nodiscard]] bool raised() const { return largest > base; }
 
-  /// [m^2] of a point `along` [m] the line from the foot of the perpendicular, whose ray meets the
-  /// line at an angle of this `cosine` to its normal.
-  [[nodiscard]] double squared(double cosine, double along) const {
-    const double noise = range * cosine * cosine + bearing * along * along;
+  /// [m^2] of a point `along` [m] the line from the foot of the perpendicular and `across` [m] from
+  /// the sensor, whose ray meets the line at an angle of this `cosine` to its normal.
+  [[nodiscard]] double squared(double cosine, double across, double along) const {
+    const double noise =
+        range * cosine * cosine + growth * across * across + bearing * along * along;
     return noise > base ? noise : base;
   }
 
@@ -38,6 +40,7 @@ struct Tolerance {
   [[nodiscard]] double squared(const PointsView& points, std::size_t i, double normal_x,
                                double normal_y) const {
     return squared(points.cosine[i] * normal_x + points.sine[i] * normal_y,
+                   points.x[i] * normal_x + points.y[i] * normal_y,
                    points.y[i] * normal_x - points.x[i] * normal_y);
   }
 };

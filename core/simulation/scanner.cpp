@@ -80,8 +80,9 @@ void SimulatedScanner::scan(double distance, double speed, SimulatedScan& out) {
     // Every ray takes the same number of random numbers, so that one setting does not shift the
     // rest.
     const bool dropped = random_.uniform() < settings_.dropout;
-    const double range =
-        hit.distance + settings_.range_bias + settings_.noise.range_stddev * random_.normal();
+    const double noise =
+        std::isfinite(hit.distance) ? std::sqrt(settings_.noise.range_variance(hit.distance)) : 0.0;
+    const double range = hit.distance + settings_.range_bias + noise * random_.normal();
     const double reported_bearing = bearing + settings_.noise.bearing_stddev * random_.normal();
 
     out.bearings[i] = static_cast<float>(reported_bearing);

@@ -37,7 +37,8 @@ inline Points wall_points(const Line& line, double first_bearing, double last_be
   for (std::size_t i = 0; i < count; ++i) {
     const double bearing = first_bearing + (last_bearing - first_bearing) * static_cast<double>(i) /
                                                static_cast<double>(count - 1);
-    ranges[i] = line.r / std::cos(bearing - line.alpha) + noise.range_stddev * normal(engine);
+    const double range = line.r / std::cos(bearing - line.alpha);
+    ranges[i] = range + std::sqrt(noise.range_variance(range)) * normal(engine);
     bearings[i] = bearing + noise.bearing_stddev * normal(engine);
   }
   return points_from(bearings, ranges);

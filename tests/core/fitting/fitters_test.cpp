@@ -65,6 +65,23 @@ TEST_P(EveryFitter, PropagatesExactDerivatives) {
   EXPECT_THAT(fit.estimate.covariance, CovarianceNear(expected, 0.25));
 }
 
+TEST_P(EveryFitter, PropagatesNoiseThatGrowsWithTheRange) {
+  // 1 m of range at one end and 12 m at the other.
+  const SensorModel faint{1e-5, 1e-6, 0.0, 1e-5};
+  std::mt19937_64 engine(6);
+  const Points p = wall_points({0.4, 1.0}, 0.4, 1.89, 60, faint, engine);
+  const Fitter fitter = make_fitter(GetParam());
+  const FitResult fit = fitter(p, faint);
+  // One variance for all ranges is not near, whatever it is.
+  const double tolerance = is_efficient(GetParam()) ? 1e-3 : 1e-6;
+  EXPECT_THAT(fit.estimate.covariance,
+              CovarianceNear(numerical_covariance(fitter, p, faint, faint), tolerance));
+  if (is_efficient(GetParam())) {
+    EXPECT_THAT(fit.estimate.covariance,
+                CovarianceNear(cramer_rao_bound({0.4, 1.0}, p.bearing, faint), 1e-3));
+  }
+}
+
 TEST_P(EveryFitter, TurnsWithThePoints) {
   // The regressions along an axis are not invariant, but their axes can be swapped.
   const Points p = first_wall();

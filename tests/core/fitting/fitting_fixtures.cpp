@@ -41,7 +41,8 @@ Eigen::Matrix2d numerical_covariance(const Fitter& fitter, const Points& points,
   };
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d g = (moved(i, h, 0) - moved(i, -h, 0)) / (2 * h) * noise.range_stddev;
+    const Eigen::Vector2d g = (moved(i, h, 0) - moved(i, -h, 0)) / (2 * h) *
+                              std::sqrt(noise.range_variance(points.range[i]));
     const Eigen::Vector2d k = (moved(i, 0, h) - moved(i, 0, -h)) / (2 * h) * noise.bearing_stddev;
     covariance += g * g.transpose() + k * k.transpose();
   }
@@ -56,8 +57,8 @@ Eigen::Matrix2d cramer_rao_bound(const Line& line, const std::vector<double>& be
     const double range = line.r / std::cos(phi);
     const Eigen::Vector2d derivative(-range * std::tan(phi), 1.0 / std::cos(phi));
     const double across = range * std::tan(phi) * sensor.bearing_stddev;
-    information += derivative * derivative.transpose() /
-                   (sensor.range_stddev * sensor.range_stddev + across * across);
+    information +=
+        derivative * derivative.transpose() / (sensor.range_variance(range) + across * across);
   }
   const double determinant =
       information(0, 0) * information(1, 1) - information(0, 1) * information(1, 0);

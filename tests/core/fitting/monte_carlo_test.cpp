@@ -123,6 +123,7 @@ std::map<std::string, Outcome> outcomes(const SensorModel& sensor, const char* c
 
 const SensorModel coarse{0.05, 0.391 * pi / 180.0, 0.0};
 const SensorModel fine{0.01, 0.113 * pi / 180.0, 0.0};
+const SensorModel growing{0.002, 0.113 * pi / 180.0, 0.0, 0.01};
 
 // 6000 revolutions give 24000 corners and as many lines. Standard deviations: 0.013 for the mean of
 // a chi-square with two degrees of freedom over independent lines, 0.14 % for a coverage of 95 %;
@@ -130,7 +131,7 @@ const SensorModel fine{0.01, 0.113 * pi / 180.0, 0.0};
 constexpr int revolutions = 6000;
 
 TEST(MonteCarlo, PropagatedCovariancesPredictTheScatter) {
-  for (const SensorModel& sensor : {coarse, fine}) {
+  for (const SensorModel& sensor : {coarse, fine, growing}) {
     for (const auto& [name, outcome] : outcomes(sensor, "propagated", revolutions)) {
       SCOPED_TRACE(name);
       EXPECT_NEAR(outcome.scatter_nees, 2.0, 0.05);

@@ -45,6 +45,8 @@ TEST(ParseReal, AcceptsUnitsOfItsQuantity) {
   EXPECT_DOUBLE_EQ(value("m", " +4 cm "), 0.04);
   EXPECT_DOUBLE_EQ(value("m", "1e3um"), 1e-3);
   EXPECT_DOUBLE_EQ(value("rad", "180 deg"), 3.14159265358979323846);
+  EXPECT_DOUBLE_EQ(value("m/m", "2 %"), 0.02);
+  EXPECT_DOUBLE_EQ(value("m/m", "10 mm/m"), 0.01);
   EXPECT_DOUBLE_EQ(value("rad", "5 mrad"), 0.005);
   EXPECT_DOUBLE_EQ(value("s", "2 min"), 120.0);
   EXPECT_DOUBLE_EQ(value("s", "15ms"), 0.015);
@@ -61,6 +63,8 @@ TEST(ParseReal, NamesWhatIsWrong) {
   EXPECT_EQ(error_of(length, "90 cm"), "90 cm is outside 0.001..0.5 m");
   EXPECT_EQ(error_of(length, "0.5 m"), "no error");
   EXPECT_EQ(error_of(real("rad", 0, 1), "1 m"), "unit 'm' is not an angle; write rad, mrad or deg");
+  EXPECT_EQ(error_of(real("m/m", 0, 1), "1 mm"), "unit 'mm' is not a share; write %, mm/m or m/m");
+  EXPECT_EQ(error_of(real("m", 0, 1), "1 %"), "unit '%' is not a length; write m, cm or mm");
   EXPECT_EQ(error_of(real("", 0, 1), "1 m"), "a number without a unit is needed, not 'm'");
   EXPECT_EQ(error_of(real("s", 0, no_limit), "-1"), "-1 is less than 0 s");
   for (const char* text :

@@ -16,7 +16,7 @@ Points far_and_near() { return points_from({0.0, 0.01, 0.02}, {2.0, 20.0, 2.0});
 TEST(Tolerance, IsTheDistanceWhereNoiseIsSmall) {
   const Tolerance tolerance({}, {0.001, 0.0001, 0.0}, far_and_near());
   EXPECT_FALSE(tolerance.raised());
-  EXPECT_DOUBLE_EQ(std::sqrt(tolerance.squared(1.0, 0.0)), 0.05);
+  EXPECT_DOUBLE_EQ(std::sqrt(tolerance.squared(1.0, 2.0, 0.0)), 0.05);
 }
 
 TEST(Tolerance, GrowsWithNoiseAlongAndAcrossTheRay) {
@@ -24,10 +24,19 @@ TEST(Tolerance, GrowsWithNoiseAlongAndAcrossTheRay) {
   EXPECT_TRUE(tolerance.raised());
   // Four standard deviations: of the range where the ray meets the line head on, of the bearing
   // times the range where it grazes it.
-  EXPECT_NEAR(std::sqrt(tolerance.squared(1.0, 0.0)), 0.12, 1e-12);
-  EXPECT_NEAR(std::sqrt(tolerance.squared(0.0, 20.0)), 0.16, 1e-12);
-  EXPECT_NEAR(std::sqrt(tolerance.squared(0.0, 2.0)), 0.05, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.squared(1.0, 20.0, 0.0)), 0.12, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.squared(0.0, 0.0, 20.0)), 0.16, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.squared(0.0, 0.0, 2.0)), 0.05, 1e-12);
   EXPECT_NEAR(std::sqrt(tolerance.largest), 0.16, 1e-12);
+}
+
+TEST(Tolerance, GrowsWithTheRange) {
+  const Tolerance tolerance({}, {0.0, 0.0, 0.0, 0.01}, far_and_near());
+  // Four times 1 % of the range along the ray, by the cosine of the incidence angle.
+  EXPECT_NEAR(std::sqrt(tolerance.squared(1.0, 20.0, 0.0)), 0.8, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.squared(0.5, 10.0, 17.0)), 0.4, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.squared(1.0, 1.0, 0.0)), 0.05, 1e-12);
+  EXPECT_NEAR(std::sqrt(tolerance.largest), 0.8, 1e-12);
 }
 
 TEST(FarthestFrom, MeasuresBeyondTheTolerance) {
