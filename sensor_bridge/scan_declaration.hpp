@@ -15,6 +15,8 @@ template <class Parameters>
   scan.sensor_model().range_stddev(parameters.range_stddev);
   scan.sensor_model().bearing_stddev(parameters.bearing_stddev);
   scan.sensor_model().range_bias_stddev(parameters.range_bias_stddev);
+  scan.sensor_model().range_stddev_per_metre(parameters.range_stddev_per_metre);
+  scan.sensor_model().flatness_stddev(parameters.flatness_stddev);
   scan.range_min(static_cast<float>(parameters.range_min));
   scan.range_max(static_cast<float>(parameters.range_max));
   return scan;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/parameters/parameter.hpp"
+#include "core/sensor/sensor_fields.hpp"
 
 namespace quoin::sensor_bridge {
 
@@ -39,7 +40,7 @@ namespace quoin::sensor_bridge {
 /// Parameters of the publisher of recorded scans. Limits and field of view default to the SICK
 /// LMS that most CARMEN logs were taken with: 180 degrees, readings of 80 m and more mean "no
 /// return".
-struct ReplayParameters {
+struct ReplayParameters : SensorModel {
   std::string path;
   ScanFormat format = ScanFormat::automatic;
   double speed = 1.0;  ///< factor
@@ -49,14 +50,11 @@ struct ReplayParameters {
   double field_of_view = 3.141592653589793;  ///< [rad]
   double range_min = 0.0;                    ///< [m]
   double range_max = 80.0;                   ///< [m]
-  double range_stddev = 0.010;               ///< [m]
-  double bearing_stddev = 0.00197;           ///< [rad]
-  double range_bias_stddev = 0.0;            ///< [m]
   std::string frame = "laser";
 
   static constexpr auto fields() {
     using P = ReplayParameters;
-    return std::tuple{
+    const std::tuple own{
         required_field(
             &P::path, "path",
             "scan file, or folder whose .csv, .log and .log.gz files are read in the order of "
@@ -73,12 +71,8 @@ struct ReplayParameters {
               "swept angle of CARMEN scans, centred on the x axis"),
         field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shorter ranges are too close"),
         field(&P::range_max, "range_max", "m", 0.01, 10000.0, "this and longer is no return"),
-        field(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "declared noise of each range"),
-        field(&P::bearing_stddev, "bearing_stddev", "rad", 0.0, 0.1,
-              "declared noise of each bearing"),
-        field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
-              "declared error common to all ranges"),
         field(&P::frame, "frame", "frame of the sensor (REP-105)")};
+    return std::tuple_cat(own, sensor_fields<P>());
   }
 };
 

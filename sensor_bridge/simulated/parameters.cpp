@@ -19,8 +19,7 @@ ScannerSettings scanner_settings(const SimulatedParameters& parameters) {
   settings.period = 1.0 / parameters.rate_hz;
   settings.range_min = parameters.range_min;
   settings.range_max = parameters.range_max;
-  settings.noise = {parameters.range_stddev, parameters.bearing_stddev,
-                    parameters.range_bias_stddev};
+  settings.noise = parameters;
   settings.range_bias = parameters.range_bias;
   settings.dropout = parameters.dropout;
   return settings;

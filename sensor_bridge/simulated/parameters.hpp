@@ -7,13 +7,15 @@
 #include <tuple>
 
 #include "core/parameters/parameter.hpp"
+#include "core/sensor/sensor_fields.hpp"
 #include "core/simulation/scanner.hpp"
 
 namespace quoin::sensor_bridge {
 
-/// Parameters of the simulated sensor. The defaults are an RPLIDAR S1 at 10 Hz: 9200
-/// samples a second, range noise of 1 cm, bearings in steps of 0.391 deg.
-struct SimulatedParameters {
+/// Parameters of the simulated sensor. It has the noise of range and bearing that it declares. The
+/// defaults are an RPLIDAR S1 at 10 Hz: 9200 samples a second, range noise of 1 cm, bearings in
+/// steps of 0.391 deg.
+struct SimulatedParameters : SensorModel {
   std::string environment = "domestic_room";
   double rate_hz = 10.0;                     ///< [Hz]
   std::int64_t points = 920;                 ///< rays per revolution
@@ -23,16 +25,13 @@ struct SimulatedParameters {
   double field_of_view = 6.283185307179586;  ///< [rad]
   double range_min = 0.1;                    ///< [m]
   double range_max = 40.0;                   ///< [m]
-  double range_stddev = 0.010;               ///< [m]
-  double bearing_stddev = 0.00197;           ///< [rad]
   double range_bias = 0.0;                   ///< [m]
-  double range_bias_stddev = 0.0;            ///< [m]
   double dropout = 0.0;                      ///< probability
   std::string frame = "laser";
 
   static constexpr auto fields() {
     using P = SimulatedParameters;
-    return std::tuple{
+    const std::tuple own{
         field(
             &P::environment, "environment",
             "name of a built-in world, or path of a world file (relative to the deployment file)"),
@@ -48,15 +47,10 @@ struct SimulatedParameters {
               "swept angle, centred on the x axis"),
         field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shortest range that is measured"),
         field(&P::range_max, "range_max", "m", 0.01, 10000.0, "longest range that is measured"),
-        field(&P::range_stddev, "range_stddev", "m", 0.0, 1.0,
-              "noise of each range, applied and declared"),
-        field(&P::bearing_stddev, "bearing_stddev", "rad", 0.0, 0.1,
-              "noise of each bearing, applied and declared"),
         field(&P::range_bias, "range_bias", "m", -1.0, 1.0, "error that is added to every range"),
-        field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
-              "error common to all ranges that is declared in the scan's sensor model"),
         field(&P::dropout, "dropout", "", 0.0, 1.0, "probability that a ray gives no range"),
         field(&P::frame, "frame", "frame of the sensor (REP-105)")};
+    return std::tuple_cat(own, sensor_fields<P>());
   }
 };
 

@@ -37,11 +37,11 @@ ParameterSettings read_parameters(const Entry& entry, const ServiceConfig& servi
   ParameterSettings settings;
   if (entry.value.IsNull()) return settings;
   if (!entry.value.IsMap()) {
-    problems.add(entry.value_at,
-                 "'parameters' must be a map of names and values, not " + what_is(entry.value));
+    problems.add(entry.value_at, "'" + entry.key + "' must be a map of names and values, not " +
+                                     what_is(entry.value));
     return settings;
   }
-  const std::string owner = "the parameters of '" + service.name + "'";
+  const std::string owner = "the " + entry.key + " of '" + service.name + "'";
   for (const Entry& parameter : entries_of(entry.value, owner, problems)) {
     const std::string place = "parameter '" + parameter.key + "' of service '" + service.name + "'";
     if (!parameter.value.IsScalar()) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parameters/parameter.hpp"
+#include "core/sensor/sensor_fields.hpp"
 #include "services/deployment/parameter_entries.hpp"
 #include "services/topics/topic_types.hpp"
 
@@ -63,6 +64,8 @@ class ServiceReader {
       method_ = entry;
     } else if (entry.key == "parameters") {
       parameters_ = entry;
+    } else if (entry.key == "sensor") {
+      sensor_ = entry;
     } else if (entry.key == "qos") {
       qos_ = entry;
     } else if (entry.key == "topic") {
@@ -86,8 +89,8 @@ class ServiceReader {
       problems_.add(entry.key_at,
                     "unknown key '" + entry.key + "' of a service" +
                         suggestion(entry.key, {"name", "kind", "input", "inputs", "method",
-                                               "parameters", "qos", "restart", "host", "strength",
-                                               "lease", "topic", "type", "program"}));
+                                               "parameters", "sensor", "qos", "restart", "host",
+                                               "strength", "lease", "topic", "type", "program"}));
     }
   }
 
@@ -222,7 +225,33 @@ class ServiceReader {
           *parameters_, draft_.config,
           known ? &parameters_of(*draft_.config.info, draft_.config.method) : nullptr, problems_);
     }
+    if (sensor_) read_sensor(*sensor_);
     if (known) require_parameters(parameters_ ? parameters_->key_at : at);
+  }
+
+  /// What is known of the sensor of a source: parameters of it, by themselves.
+  void read_sensor(const Entry& entry) {
+    const KindInfo& kind = *draft_.config.info;
+    const std::vector<ParameterInfo> known = sensor_parameters();
+    const bool measures = std::ranges::any_of(
+        kind.parameters, [&](const ParameterInfo& own) { return own.name == known.front().name; });
+    if (!measures) {
+      problems_.add(entry.key_at, "'sensor' belongs to a source of scans; kind " + kind.name +
+                                      " has no sensor, remove it from '" + draft_.config.name +
+                                      "'");
+      return;
+    }
+    for (ParameterSetting& setting : read_parameters(entry, draft_.config, &known, problems_)) {
+      const bool twice = std::ranges::any_of(
+          draft_.config.parameters,
+          [&](const ParameterSetting& other) { return other.name == setting.name; });
+      if (twice) {
+        problems_.add(position_of(entry.value[setting.name].Mark()),
+                      "'" + setting.name + "' of service '" + draft_.config.name +
+                          "' stands in 'sensor' and in 'parameters'; remove one");
+      }
+      draft_.config.parameters.push_back(std::move(setting));
+    }
   }
 
   /// A topic that somebody else writes.
@@ -257,7 +286,7 @@ class ServiceReader {
         draft_.config.program.push_back(word.value.Scalar());
       }
     }
-    for (const auto& entry : {method_, parameters_, strength_}) {
+    for (const auto& entry : {method_, parameters_, sensor_, strength_}) {
       if (entry) {
         problems_.add(entry->key_at, "kind external has no " + entry->key + "; remove it from '" +
                                          draft_.config.name + "'");
@@ -360,8 +389,8 @@ class ServiceReader {
   const KindList& kinds_;
   Problems& problems_;
   DraftService draft_;
-  std::optional<Entry> kind_, inputs_, method_, parameters_, qos_, strength_, lease_, topic_, type_,
-      program_;
+  std::optional<Entry> kind_, inputs_, method_, parameters_, sensor_, qos_, strength_, lease_,
+      topic_, type_, program_;
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ void fill_ranges(const std::vector<Segment>& runs, std::vector<msg::IndexRange>&
 }  // namespace
 
 SensorModel sensor_model(const msg::SensorModel& message) {
-  return {message.range_stddev(), message.bearing_stddev(), message.range_bias_stddev()};
+  return {message.range_stddev(), message.bearing_stddev(), message.range_bias_stddev(),
+          message.range_stddev_per_metre(), message.flatness_stddev()};
 }
 
 msg::SensorModel sensor_model_message(const SensorModel& model) {
@@ -26,6 +27,8 @@ msg::SensorModel sensor_model_message(const SensorModel& model) {
   message.range_stddev(model.range_stddev);
   message.bearing_stddev(model.bearing_stddev);
   message.range_bias_stddev(model.range_bias_stddev);
+  message.range_stddev_per_metre(model.range_stddev_per_metre);
+  message.flatness_stddev(model.flatness_stddev);
   return message;
 }
 

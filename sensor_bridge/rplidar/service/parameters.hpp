@@ -7,27 +7,25 @@
 #include <tuple>
 
 #include "core/parameters/parameter.hpp"
+#include "core/sensor/sensor_fields.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 
 /// Parameters of the RPLIDAR bridge; names as in the vendor's ROS driver where it has them.
-struct RplidarParameters {
+struct RplidarParameters : SensorModel {
   std::string serial_port = "auto";
   std::int64_t serial_baudrate = 0;  ///< [bit/s]; 0 finds it
   std::string scan_mode;             ///< empty for the one that the device calls typical
   double scan_frequency = 0.0;       ///< [Hz] 0 for the device's own
   bool inverted = false;
-  std::int64_t bins = 0;            ///< 0: true bearings
-  double range_min = 0.1;           ///< [m]
-  double range_max = 0.0;           ///< [m] 0 for what the device says of the scan mode
-  double range_stddev = 0.010;      ///< [m]
-  double bearing_stddev = 0.00197;  ///< [rad]
-  double range_bias_stddev = 0.0;   ///< [m]
+  std::int64_t bins = 0;   ///< 0: true bearings
+  double range_min = 0.1;  ///< [m]
+  double range_max = 0.0;  ///< [m] 0 for what the device says of the scan mode
   std::string frame = "laser";
 
   static constexpr auto fields() {
     using P = RplidarParameters;
-    return std::tuple{
+    const std::tuple own{
         field(&P::serial_port, "serial_port",
               "serial device (./ is relative to the deployment file), tcp://host[:20108] or "
               "udp://host[:8089]; auto takes the only USB serial adapter of the usual type"),
@@ -44,12 +42,8 @@ struct RplidarParameters {
         field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shortest range that is measured"),
         field(&P::range_max, "range_max", "m", 0.0, 1000.0,
               "longest range that is measured; 0 for what the device says"),
-        field(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "noise of each range, declared"),
-        field(&P::bearing_stddev, "bearing_stddev", "rad", 0.0, 0.1,
-              "noise of each bearing, declared"),
-        field(&P::range_bias_stddev, "range_bias_stddev", "m", 0.0, 1.0,
-              "error common to all ranges, declared"),
         field(&P::frame, "frame_id", "frame of the sensor (REP-105)")};
+    return std::tuple_cat(own, sensor_fields<P>());
   }
 };
 

@@ -35,6 +35,8 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
                                                {"range_stddev", "0.02"},
                                                {"bearing_stddev", "0.003"},
                                                {"range_bias_stddev", "0.004"},
+                                               {"range_stddev_per_metre", "1 %"},
+                                               {"flatness_stddev", "2 mm"},
                                                {"frame", "front_laser"}}),
                                 folder.path());
   RecordingSource source;
@@ -50,6 +52,8 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
   EXPECT_EQ(scan.sensor_model().range_stddev(), 0.02);
   EXPECT_EQ(scan.sensor_model().bearing_stddev(), 0.003);
   EXPECT_EQ(scan.sensor_model().range_bias_stddev(), 0.004);
+  EXPECT_EQ(scan.sensor_model().range_stddev_per_metre(), 0.01);
+  EXPECT_EQ(scan.sensor_model().flatness_stddev(), 0.002);
   EXPECT_EQ(scan.range_min(), 0.05F);
   EXPECT_EQ(scan.range_max(), 80.0F);
   EXPECT_EQ(scan.duration(), 0.0F);

@@ -21,6 +21,7 @@ TEST(ScannerSettings, AreThoseOfTheParameters) {
                                                                 {"range_max", "12"},
                                                                 {"range_stddev", "0.02"},
                                                                 {"bearing_stddev", "0.001"},
+                                                                {"range_stddev_per_metre", "1 %"},
                                                                 {"range_bias", "-0.03"},
                                                                 {"dropout", "0.25"}});
   const ScannerSettings settings = scanner_settings(parameters);
@@ -32,6 +33,7 @@ TEST(ScannerSettings, AreThoseOfTheParameters) {
   EXPECT_EQ(settings.range_max, 12.0);
   EXPECT_EQ(settings.noise.range_stddev, 0.02);
   EXPECT_EQ(settings.noise.bearing_stddev, 0.001);
+  EXPECT_EQ(settings.noise.range_stddev_per_metre, 0.01);
   EXPECT_EQ(settings.range_bias, -0.03);
   EXPECT_EQ(settings.dropout, 0.25);
 }

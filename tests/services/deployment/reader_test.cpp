@@ -177,6 +177,22 @@ services:
   EXPECT_EQ(deployment.service("walls").method, "iepf");
 }
 
+TEST(Reader, TheSensorOfASourceHasABlock) {
+  const Deployment deployment = deploy::parse_deployment(R"(
+version: 1
+services:
+  - name: front
+    kind: simulated
+    sensor: {range_stddev: 2 mm, range_stddev_per_metre: 1 %, flatness_stddev: 3 mm}
+    parameters: {seed: 3}
+)",
+                                                         "robot.yaml");
+  EXPECT_THAT(deployment.service("front").parameters,
+              ElementsAre(ParameterSetting{"seed", "3"}, ParameterSetting{"range_stddev", "2 mm"},
+                          ParameterSetting{"range_stddev_per_metre", "1 %"},
+                          ParameterSetting{"flatness_stddev", "3 mm"}));
+}
+
 TEST(Reader, ThePresetForAllMayBeWrittenLast) {
   const Deployment deployment = deploy::parse_deployment(
       "version: 1\nservices:\n  - {name: front, kind: simulated}\nqos: lossless\n", "robot.yaml");

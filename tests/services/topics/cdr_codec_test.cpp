@@ -43,11 +43,13 @@ const char* const header_json =
     R"("method":"none","incarnation":5,"index":18446744073709551615,"received":3,"published":4}]})";
 
 const char* const model_json =
-    R"("sensor_model":{"range_stddev":0.01,"bearing_stddev":0.002,"range_bias_stddev":0.0})";
+    R"("sensor_model":{"range_stddev":0.01,"bearing_stddev":0.002,"range_bias_stddev":0.0,)"
+    R"("range_stddev_per_metre":0.0125,"flatness_stddev":0.0})";
 
 void fill(msg::SensorModel& model) {
   model.range_stddev(0.01);
   model.bearing_stddev(0.002);
+  model.range_stddev_per_metre(0.0125);
 }
 
 msg::Scan a_scan() {

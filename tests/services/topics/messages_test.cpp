@@ -10,11 +10,13 @@ namespace quoin::topics {
 namespace {
 
 TEST(Messages, SensorModelGoesThereAndBack) {
-  const SensorModel model{0.01, 0.002, 0.05};
+  const SensorModel model{0.01, 0.002, 0.05, 0.008, 0.003};
   const SensorModel back = sensor_model(sensor_model_message(model));
   EXPECT_EQ(back.range_stddev, 0.01);
   EXPECT_EQ(back.bearing_stddev, 0.002);
   EXPECT_EQ(back.range_bias_stddev, 0.05);
+  EXPECT_EQ(back.range_stddev_per_metre, 0.008);
+  EXPECT_EQ(back.flatness_stddev, 0.003);
 }
 
 TEST(Messages, SegmentsWithRangesOutsideThePointsAreInvalid) {
