@@ -32,6 +32,7 @@ void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
     }
     scale_to_residuals(fit.estimate, chi_square(fit.estimate.line, points, fitting), points.size());
     lines_.push_back(line_segment(fit.estimate, fit.normal, points));
+    add_flatness(lines_.back(), fitting.flatness_stddev);
     fitted_.push_back(segment);
   }
   finder_(lines_, fitting.range_bias_stddev, corners_);

@@ -64,7 +64,8 @@ struct EnumNames<FitFailure> {
 /// How often each FitFailure occurred, indexed by its value.
 using FailureCounts = std::array<std::size_t, EnumNames<FitFailure>::names.size()>;
 
-/// Line fitted to the points of one segment, or the reason why there is none.
+/// Line fitted to the points of one segment, or the reason why there is none. The covariance is
+/// that of (alpha, r) to first order.
 struct FitResult {
   LineEstimate estimate;
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit vector, estimate.line.normal()
@@ -90,7 +91,7 @@ struct FitResult {
       return failed(FitFailure::not_finite);
     }
     FitResult result;
-    result.estimate = {line, covariance};
+    result.estimate = {line, covariance, 0.0};
     result.estimate.covariance.diagonal() = covariance.diagonal().cwiseMax(0.0);
     result.normal = normal;
     return result;
@@ -100,15 +101,16 @@ struct FitResult {
 /// Fits one line to all points of the view. Pure: same points, same line.
 using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
 
-/// The line with the projections of the first and the last of the points it was fitted to.
+/// The line with the projections of the first and the last of the points it was fitted to, the
+/// covariance about the middle between them.
 [[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const PointsView& points);
 
 /// The same with the unit normal of the line, which a FitResult has already.
 [[nodiscard]] LineSegment line_segment(const LineEstimate& estimate, const Eigen::Vector2d& normal,
                                        const PointsView& points);
 
-/// Sum over the points of the squared radial residual (rho - r / cos(phi)) over its variance; its
-/// expectation is size - 2 for a straight wall and a true sensor model.
+/// Sum over the points of the squared radial residual (rho - r / cos(phi)) over its variance, that
+/// by the flatness of walls included; its expectation is size - 2 for a true sensor model.
 [[nodiscard]] double chi_square(const Line& line, const PointsView& points,
                                 const SensorModel& sensor);
 
@@ -116,5 +118,15 @@ using Fitter = std::function<FitResult(const PointsView&, const SensorModel&)>;
 /// noise gives once in 1000 times: an uneven wall, or a sensor with more noise than its model says.
 /// Returns the factor, 1 when nothing was done.
 double scale_to_residuals(LineEstimate& estimate, double chi_square, std::size_t points);
+
+/// Covariance of (direction, offset) [rad^2, rad m; rad m, m^2] about the mid-point of a wall of
+/// this length [m] that its own deviation from a line gives, on top of the sensor's noise: an
+/// offset of flatness_stddev and, independent of it, a slope of as much over the root mean square
+/// distance from the mid-point, length / sqrt(12). It does not depend on the number of points,
+/// which share that deviation.
+[[nodiscard]] Eigen::Matrix2d flatness_covariance(double flatness_stddev, double length);
+
+/// Adds it to the covariance of the segment, which is about its mid-point.
+void add_flatness(LineSegment& segment, double flatness_stddev);
 
 }  // namespace quoin

@@ -44,13 +44,11 @@ Eigen::Matrix2d intersection_covariance(const Eigen::Vector2d& position, const L
   const double s2 = second_normal.y();
   const double sine = cross(first_normal, second_normal);
 
-  // Only the normal offset of each line at the corner moves the corner: dr - t dalpha.
-  const auto offset_variance = [&position](const LineEstimate& line, double c, double s) {
-    const double t = position.y() * c - position.x() * s;
-    return line.covariance(1, 1) - 2.0 * t * line.covariance(0, 1) + t * t * line.covariance(0, 0);
-  };
-  const double v1 = offset_variance(first, c1, s1);
-  const double v2 = offset_variance(second, c2, s2);
+  // Only the offset of each line at the corner moves the corner. With the normals as they were
+  // estimated the true corner p fulfils n . (p - position) = offset exactly, so that errors of the
+  // directions count to the second order as well, wherever on the lines the corner is.
+  const double v1 = first.offset_variance(position.y() * c1 - position.x() * s1);
+  const double v2 = second.offset_variance(position.y() * c2 - position.x() * s2);
   const double scale = 1.0 / (sine * sine);
 
   Eigen::Matrix2d covariance;

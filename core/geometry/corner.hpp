@@ -23,8 +23,8 @@ struct CornerEstimate {
                                                           const Line& second,
                                                           const Eigen::Vector2d& second_normal);
 
-/// Covariance of the `position` where two lines with independent errors meet, by first-order
-/// propagation.
+/// Covariance of the `position` where two lines with independent errors meet, from the variances of
+/// their offsets there.
 [[nodiscard]] Eigen::Matrix2d intersection_covariance(const Eigen::Vector2d& position,
                                                       const LineEstimate& first,
                                                       const Eigen::Vector2d& first_normal,
@@ -32,7 +32,7 @@ struct CornerEstimate {
                                                       const Eigen::Vector2d& second_normal);
 
 /// Intersection of two lines with independent errors (CWLF eq. 36, 37; WCTLS eq. 24, 25) and its
-/// covariance by first-order propagation. Nothing when the lines are parallel to rounding.
+/// covariance. Nothing when the lines are parallel to rounding.
 [[nodiscard]] std::optional<CornerEstimate> intersect(const LineEstimate& first,
                                                       const LineEstimate& second);
 

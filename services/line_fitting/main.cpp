@@ -34,7 +34,9 @@ runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
       if (result.ok()) {
         const double residuals = chi_square(result.estimate.line, segment, sensor);
         if (scales) scale_to_residuals(result.estimate, residuals, segment.size());
-        topics::append_line(result.estimate, segment, residuals, i, out);
+        LineSegment line = line_segment(result.estimate, result.normal, segment);
+        if (scales) add_flatness(line, sensor.flatness_stddev);
+        topics::append_line(line, residuals, i, out);
       } else {
         topics::append_failure(result.failure, i, out);
       }

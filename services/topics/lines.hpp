@@ -11,10 +11,9 @@
 
 namespace quoin::topics {
 
-/// Appends the line fitted to `points`, which are segment number `segment` of the scan, with the
-/// projections of its first and last point.
-void append_line(const LineEstimate& estimate, const PointsView& points, double chi_square,
-                 std::uint32_t segment, msg::Lines& out);
+/// Appends the line fitted to segment number `segment` of the scan.
+void append_line(const LineSegment& line, double chi_square, std::uint32_t segment,
+                 msg::Lines& out);
 
 void append_failure(FitFailure failure, std::uint32_t segment, msg::Lines& out);
 

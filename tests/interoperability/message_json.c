@@ -62,9 +62,13 @@ static void write_line(JsonWriter* writer, const quoin_msg_Line* line) {
   json_begin_object(writer, NULL);
   json_double(writer, "alpha", line->alpha);
   json_double(writer, "r", line->r);
+  json_double(writer, "covariance_direction", line->covariance_direction);
+  json_double(writer, "covariance_direction_offset", line->covariance_direction_offset);
+  json_double(writer, "covariance_offset", line->covariance_offset);
   json_double(writer, "covariance_alpha", line->covariance_alpha);
   json_double(writer, "covariance_alpha_r", line->covariance_alpha_r);
   json_double(writer, "covariance_r", line->covariance_r);
+  json_bool(writer, "gaussian", line->gaussian);
   write_point(writer, "start", &line->start);
   write_point(writer, "end", &line->end);
   json_unsigned(writer, "points", line->points);

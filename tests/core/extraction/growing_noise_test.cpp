@@ -51,7 +51,8 @@ TEST_P(GrowingNoise, IsCoveredAtAllRanges) {
             line.estimate.line.r - distances[k]);
         if (std::abs(error.x()) > 0.1 || (line.end - line.start).norm() < 2.0) continue;
         ++found[k];
-        if (error.dot(line.estimate.covariance.inverse() * error) < chi_square_2_95) ++covered[k];
+        if (error.dot(line.estimate.alpha_r_covariance().inverse() * error) < chi_square_2_95)
+          ++covered[k];
         break;
       }
     }

@@ -203,5 +203,58 @@ TEST(LineSegmentOf, ProjectsTheEnds) {
   EXPECT_EQ(line_segment({}, PointsView{}).start, Eigen::Vector2d::Zero());
 }
 
+TEST_P(EveryFitter, GivesTheCovarianceAboutTheMiddle) {
+  // Far away and seen from the side, (alpha, r) are correlated all but completely.
+  const SensorModel sensor;
+  std::mt19937_64 engine(9);
+  const Points p = wall_points({0.4, 5.0}, 1.4, 1.5, 30, sensor, engine);
+  const FitResult fit = make_fitter(GetParam())(p, sensor);
+  const LineSegment s = line_segment(fit.estimate, fit.normal, p);
+  const auto correlation = [](const Eigen::Matrix2d& c) {
+    return c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
+  };
+  EXPECT_GT(std::abs(correlation(fit.estimate.covariance)), 0.99);
+  EXPECT_LT(std::abs(correlation(s.estimate.covariance)), 0.5);
+  const Eigen::Vector2d middle = 0.5 * (s.start + s.end);
+  EXPECT_NEAR(s.estimate.along, middle.dot(Eigen::Vector2d(-fit.normal.y(), fit.normal.x())), 1e-9);
+  EXPECT_THAT(s.estimate.about(0.0).covariance, CovarianceNear(fit.estimate.covariance, 1e-9));
+}
+
+TEST(Flatness, IsAnOffsetAndASlopeOfTheWall) {
+  LineSegment wall;
+  wall.estimate = {{0.0, 2.0}, Eigen::Matrix2d{{1e-6, 1e-7}, {1e-7, 1e-6}}, 1.0};
+  wall.start = {2.0, 0.0};
+  wall.end = {2.0, 2.0};
+  LineSegment flat = wall;
+  add_flatness(flat, 0.0);
+  EXPECT_EQ(flat.estimate.covariance, wall.estimate.covariance);
+  add_flatness(wall, 0.01);
+  EXPECT_THAT(wall.estimate.covariance - flat.estimate.covariance,
+              CovarianceNear(Eigen::Matrix2d{{12.0 * 1e-4 / 4.0, 0.0}, {0.0, 1e-4}}, 1e-9));
+  // The mean square over the wall of an offset and a slope of these variances is twice 1e-4.
+  double sum = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const double t = -1.0 + (k + 0.5) / 500.0;
+    sum += (flatness_covariance(0.01, 2.0)(1, 1) + t * t * flatness_covariance(0.01, 2.0)(0, 0));
+  }
+  EXPECT_NEAR(sum / 1000.0, 2e-4, 1e-9);
+}
+
+TEST(Flatness, CountsInTheResiduals) {
+  // A wall with bumps of 5 mm that change from point to point, without any other noise.
+  const Line line{0.4, 1.7};
+  std::mt19937_64 engine(8);
+  std::normal_distribution<double> normal;
+  std::vector<double> bearings, ranges;
+  for (int k = 0; k < 2000; ++k) {
+    bearings.push_back(0.4 * k / 1000.0);
+    ranges.push_back((line.r + 0.005 * normal(engine)) / std::cos(bearings.back() - line.alpha));
+  }
+  const Points p = points_from(bearings, ranges);
+  // The standard deviation of a chi square over its freedom is sqrt(2 / 2000) = 0.03.
+  EXPECT_NEAR(chi_square(line, p, {0.0, 0.0, 0.0, 0.0, 0.005}) / 2000.0, 1.0, 0.1);
+  EXPECT_NEAR(chi_square(line, p, {0.0, 0.0, 0.0, 0.0, 0.01}) / 2000.0, 0.25, 0.03);
+}
+
 }  // namespace
 }  // namespace quoin

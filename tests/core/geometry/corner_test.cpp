@@ -55,6 +55,13 @@ TEST(Intersection, IsThePositionAndTheCovarianceOfIntersect) {
   EXPECT_FALSE(intersection(a.line, m, b.line, -m));
 }
 
+TEST(Intersect, DoesNotDependOnWhereTheCovariancesAre) {
+  const LineEstimate a{{0.3, 2.0}, Eigen::Matrix2d{{1e-4, 3e-5}, {3e-5, 4e-5}}};
+  const LineEstimate b{{1.9, 1.5}, Eigen::Matrix2d{{2e-4, -5e-5}, {-5e-5, 3e-5}}};
+  EXPECT_THAT(intersect(a.about(1.7), b.about(-0.8))->covariance,
+              CovarianceNear(intersect(a, b)->covariance, 1e-12));
+}
+
 TEST(RangeBias, ActsAlongTheRay) {
   CornerEstimate corner{{3.0, 4.0}, Eigen::Matrix2d::Identity() * 1e-4};
   const Eigen::Matrix2d c = with_range_bias(corner, 0.05).covariance;

@@ -54,7 +54,7 @@ class RealScans : public testing::TestWithParam<std::string> {
   /// The line nearest to this one lies at this distance from the sensor, to 5 standard deviations.
   void expect_line(double alpha, double r) const {
     for (const LineSegment& line : extraction_.lines()) {
-      const double deviation = std::sqrt(line.estimate.covariance(1, 1));
+      const double deviation = std::sqrt(line.estimate.alpha_r_covariance()(1, 1));
       if (std::abs(line.estimate.line.alpha - alpha) < 0.05 &&
           std::abs(line.estimate.line.r - r) < 5.0 * deviation && deviation < 0.01) {
         return;

@@ -103,7 +103,10 @@ TEST(CdrCodec, JsonOfLines) {
   EXPECT_EQ(to_json(lines).dump(),
             std::string("{") + header_json + "," + model_json +
                 R"(,"covariance_mode":"propagated","lines":[{"alpha":0.25,"r":2.0,)"
+                R"("covariance_direction":0.0,"covariance_direction_offset":0.0,)"
+                R"("covariance_offset":0.0,)"
                 R"("covariance_alpha":0.0,"covariance_alpha_r":0.0,"covariance_r":0.0,)"
+                R"("gaussian":false,)"
                 R"("start":{"x":1.0,"y":0.0},"end":{"x":0.0,"y":-1.0},"points":9,)"
                 R"("chi_square":null,"segment":0}],)"
                 R"("failures":[{"segment":1,"reason":"too_few_points"}]})");

@@ -58,7 +58,8 @@ TEST(Messages, LinesGoThereAndBack) {
   estimate.covariance << 1e-4, 2e-5, 2e-5, 3e-4;
 
   msg::Lines message;
-  append_line(estimate, points, chi_square(estimate.line, points, SensorModel{}), 7, message);
+  append_line(line_segment(estimate, points), chi_square(estimate.line, points, SensorModel{}), 7,
+              message);
   append_failure(FitFailure::through_sensor, 8, message);
   ASSERT_EQ(message.lines().size(), 1U);
   EXPECT_EQ(message.lines()[0].segment(), 7U);
@@ -71,10 +72,40 @@ TEST(Messages, LinesGoThereAndBack) {
   line_segments(message, lines);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].estimate.line.r, 2.0);
-  EXPECT_EQ(lines[0].estimate.covariance, estimate.covariance);
+  EXPECT_EQ(lines[0].estimate.covariance, estimate.covariance);  // seen about the foot
+  EXPECT_EQ(lines[0].estimate.along, 0.0);
   EXPECT_NEAR(lines[0].start.y(), -1.0, 1e-12);
   EXPECT_NEAR(lines[0].end.y(), 1.0, 1e-12);
   EXPECT_EQ(lines[0].points, 2U);
+}
+
+// A wall off to one side: its middle is 3 m from the foot of the perpendicular.
+TEST(Messages, LinesCarryTheirCovarianceAboutTheMiddle) {
+  LineSegment line;
+  line.estimate = {{0.0, 2.0}, Eigen::Matrix2d{{4e-4, 1e-5}, {1e-5, 1e-4}}, 3.0};
+  line.start = {2.0, 2.5};
+  line.end = {2.0, 3.5};
+  msg::Lines message;
+  message.covariance_mode("propagated");
+  append_line(line, 0.0, 0, message);
+  message.covariance_mode("as_published");
+  append_line(line, 0.0, 1, message);
+  const msg::Line& first = message.lines()[0];
+  EXPECT_DOUBLE_EQ(first.covariance_direction(), 4e-4);
+  EXPECT_DOUBLE_EQ(first.covariance_direction_offset(), 1e-5);
+  EXPECT_DOUBLE_EQ(first.covariance_offset(), 1e-4);
+  // dr = d(offset) + 3 dalpha, and r / 2 dalpha^2 besides.
+  EXPECT_DOUBLE_EQ(first.covariance_alpha(), 4e-4);
+  EXPECT_DOUBLE_EQ(first.covariance_alpha_r(), 1e-5 + 3.0 * 4e-4);
+  const double first_order = 1e-4 + 6.0 * 1e-5 + 9.0 * 4e-4;
+  EXPECT_DOUBLE_EQ(first.covariance_r(), first_order + 0.75 * 4.0 * 4e-4 * 4e-4);
+  EXPECT_DOUBLE_EQ(message.lines()[1].covariance_r(), first_order);
+  EXPECT_TRUE(first.gaussian());
+
+  std::vector<LineSegment> lines;
+  line_segments(message, lines);
+  EXPECT_EQ(lines[0].estimate.covariance, line.estimate.covariance);
+  EXPECT_DOUBLE_EQ(lines[0].estimate.along, 3.0);
 }
 
 TEST(Messages, CornersCarryTheirEllipses) {
