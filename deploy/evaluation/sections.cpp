@@ -10,6 +10,7 @@ const std::vector<SectionKind>& section_kinds() {
       {"cwlf_paper", "The CWLF paper's experiment", make_cwlf_paper_section},
       {"pca_paper", "The PCA paper's simulations", make_pca_paper_section},
       {"consistency", "Consistency of fitters", make_consistency_section},
+      {"lines", "Lines of any length and distance", make_lines_section},
       {"loop", "Coverage with segmentation in the loop", make_loop_section},
       {"segmenters", "Segmenters", make_segmenters_section},
       {"robustness", "Stray returns, few rays and round things", make_robustness_section},

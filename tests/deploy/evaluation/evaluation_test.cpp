@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/corners/corner_finders.hpp"
+#include "core/evaluation/line_coverage.hpp"
 #include "core/evaluation/loop_coverage.hpp"
 #include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/evaluation/papers/pca_paper.hpp"
@@ -113,6 +115,25 @@ TEST(Evaluation, AWorldWithoutCornersHasNoFigures) {
   EXPECT_EQ(report["fitters"][0]["corners"], 0);
   EXPECT_TRUE(report["fitters"][0]["nees"].is_null());
   EXPECT_TRUE(report["fitters"][0]["coverage95"].is_null());
+}
+
+TEST(Evaluation, LinesAreThoseOfADirectComputation) {
+  const json report = report_of(quick("lines"));
+  const auto& cells = report["lines"];
+  const auto cell = std::find_if(cells.begin(), cells.end(), [](const json& each) {
+    return each["range_stddev"] == 0.01 && each["incidence"] == 0.0 && each["length"] == 0.3 &&
+           each["distance"] == 2.0;
+  });
+  ASSERT_NE(cell, cells.end());
+  const LineCoverage direct = judge_wall(
+      make_fitter("inverse_range", "propagated"), {0.3, 2.0, 0.0}, rplidar_noise(0.01), 920, 5, 80,
+      derived_seed(1, "lines/" + noise_text(rplidar_noise(0.01)) + "/0.00/0.3/2.0"));
+  EXPECT_EQ((*cell)["trials"], 80);
+  EXPECT_EQ((*cell)["points"].get<double>(), direct.points);
+  EXPECT_EQ((*cell)["coverage_middle"].get<double>(), direct.middle.value);
+  EXPECT_EQ((*cell)["coverage_alpha_r"].get<double>(), direct.alpha_r.value);
+  // A short wall far away is met by too few rays.
+  for (const json& each : cells) EXPECT_FALSE(each["length"] == 0.2 && each["distance"] == 10.0);
 }
 
 TEST(Evaluation, LoopIsThatOfADirectComputation) {
