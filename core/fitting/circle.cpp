@@ -6,69 +6,14 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/fitting/algebraic_circle.hpp"
 #include "core/fitting/point_sums.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace quoin {
 namespace {
 
-constexpr int newton_steps = 20;
 constexpr int gauss_newton_steps = 3;
-
-/// About the mean of the points, each divided by their number; z = x^2 + y^2.
-struct CircleMoments {
-  double mean_x = 0.0, mean_y = 0.0;
-  double xx = 0.0, yy = 0.0, xy = 0.0, xz = 0.0, yz = 0.0, zz = 0.0;
-};
-
-CircleMoments moments_of(const PointsView& points) {
-  CircleMoments m;
-  const auto scale = 1.0 / static_cast<double>(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    m.mean_x += points.x[i] * scale;
-    m.mean_y += points.y[i] * scale;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points.x[i] - m.mean_x;
-    const double y = points.y[i] - m.mean_y;
-    const double z = x * x + y * y;
-    m.xx += x * x * scale;
-    m.yy += y * y * scale;
-    m.xy += x * y * scale;
-    m.xz += x * z * scale;
-    m.yz += y * z * scale;
-    m.zz += z * z * scale;
-  }
-  return m;
-}
-
-/// Taubin, "Estimation of planar curves, surfaces, and nonplanar space curves defined by implicit
-/// equations", 1991: the smallest root of the characteristic polynomial by Newton's method from 0,
-/// which is below it.
-std::optional<Circle> taubin(const CircleMoments& m) {
-  const double z = m.xx + m.yy;
-  const double determinant = m.xx * m.yy - m.xy * m.xy;
-  const double variance_z = m.zz - z * z;
-  const double a3 = 4.0 * z;
-  const double a2 = -3.0 * z * z - m.zz;
-  const double a1 = variance_z * z + 4.0 * determinant * z - m.xz * m.xz - m.yz * m.yz;
-  const double a0 = m.xz * (m.xz * m.yy - m.yz * m.xy) + m.yz * (m.yz * m.xx - m.xz * m.xy) -
-                    variance_z * determinant;
-  double root = 0.0;
-  for (int k = 0; k < newton_steps; ++k) {
-    const double value = a0 + root * (a1 + root * (a2 + root * a3));
-    const double slope = a1 + root * (2.0 * a2 + root * 3.0 * a3);
-    const double next = root - value / slope;
-    if (!std::isfinite(next) || next == root) break;
-    root = next;
-  }
-  const double scale = 2.0 * (root * root - root * z + determinant);
-  const Eigen::Vector2d center((m.xz * (m.yy - root) - m.yz * m.xy) / scale,
-                               (m.yz * (m.xx - root) - m.xz * m.xy) / scale);
-  const double radius = std::sqrt(center.squaredNorm() + z);
-  if (!center.allFinite() || !std::isfinite(radius)) return std::nullopt;
-  return Circle{center + Eigen::Vector2d(m.mean_x, m.mean_y), radius};
-}
 
 /// A point as a circle sees it.
 struct Residual {
@@ -115,8 +60,7 @@ bool improve(Circle& circle, const PointsView& points, const WeightVariances& va
 }  // namespace
 
 std::optional<Circle> fit_circle(const PointsView& points, const SensorModel& sensor) {
-  if (points.size() < 3) return std::nullopt;
-  std::optional<Circle> circle = taubin(moments_of(points));
+  std::optional<Circle> circle = fit_algebraic_circle(points, CircleConstraint::taubin);
   const WeightVariances variances(sensor);
   for (int k = 0; k < gauss_newton_steps && circle; ++k) {
     if (!improve(*circle, points, variances)) circle.reset();

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/circles/circle_fit.hpp"
+#include "core/fitting/algebraic_circle.hpp"
+
+namespace quoin {
+
+/// The algebraic circle with the covariance that the noise of each ray gives it, to first order
+/// that of the circle with the least squared distances: its points have one weight.
+[[nodiscard]] CircleFit fit_algebraic(const PointsView& points, const SensorModel& sensor,
+                                      CircleConstraint constraint,
+                                      const CircleParameters& parameters);
+
+class TaubinCircle {
+ public:
+  static constexpr const char* name = "taubin";
+  static constexpr const char* description =
+      "algebraic circle, squares over the mean squared gradient; no iteration over the points";
+  static constexpr const char* source = "Taubin 1991";
+  static constexpr const char* choose =
+      "Where a noise model is not to be relied on for the circle itself. All points count alike, "
+      "so that it is less accurate than maximum_likelihood where the incidence varies, and biased "
+      "where the noise is not small against the radius.";
+
+  using Parameters = CircleParameters;
+
+  TaubinCircle() = default;
+  explicit TaubinCircle(const Parameters& parameters) : parameters_(parameters) {}
+
+  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, sensor, CircleConstraint::taubin, parameters_);
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+class PrattCircle {
+ public:
+  static constexpr const char* name = "pratt";
+  static constexpr const char* description =
+      "algebraic circle, squares over the squared radius in algebraic terms";
+  static constexpr const char* source = "Pratt 1987";
+  static constexpr const char* choose =
+      "To compare with taubin: the same to first order, with the larger bias of the radius.";
+
+  using Parameters = CircleParameters;
+
+  PrattCircle() = default;
+  explicit PrattCircle(const Parameters& parameters) : parameters_(parameters) {}
+
+  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, sensor, CircleConstraint::pratt, parameters_);
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+class HyperCircle {
+ public:
+  static constexpr const char* name = "hyper";
+  static constexpr const char* description =
+      "algebraic circle without the bias that noise alike in all directions gives taubin";
+  static constexpr const char* source = "Al-Sharadqah and Chernov 2009";
+  static constexpr const char* choose =
+      "Where taubin would do and the noise of range and bearing are about as large. That of a "
+      "lidar mostly is not, and then it has bias of another kind.";
+
+  using Parameters = CircleParameters;
+
+  HyperCircle() = default;
+  explicit HyperCircle(const Parameters& parameters) : parameters_(parameters) {}
+
+  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, sensor, CircleConstraint::hyper, parameters_);
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace quoin
