@@ -6,6 +6,7 @@
 #include "sensor_bridge/rplidar/emulator_service/kind.hpp"
 #include "sensor_bridge/rplidar/service/kind.hpp"
 #include "sensor_bridge/simulated/kind.hpp"
+#include "services/circle_fitting/kind.hpp"
 #include "services/corner_estimation/kind.hpp"
 #include "services/line_fitting/kind.hpp"
 #include "services/segmentation/kind.hpp"
@@ -17,7 +18,8 @@ const KindList& kinds() {
   static const KindList all{{&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
                              &sensor_bridge::rplidar::rplidar_kind(),
                              &sensor_bridge::rplidar::rplidar_emulator_kind(), &segmentation_kind(),
-                             &line_fitting_kind(), &corner_estimation_kind(), &external_kind()}};
+                             &line_fitting_kind(), &corner_estimation_kind(),
+                             &circle_fitting_kind(), &external_kind()}};
   return all;
 }
 

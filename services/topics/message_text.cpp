@@ -113,6 +113,22 @@ std::string corners_text(const Json& message) {
   return text.str();
 }
 
+std::string circles_text(const Json& message) {
+  std::ostringstream text;
+  text << ' ' << message.at("circles").size() << " circles:";
+  for (const Json& circle : message.at("circles")) {
+    const double sigma =
+        std::sqrt(0.5 * (real(circle, "covariance_xx") + real(circle, "covariance_yy")));
+    text << " (" << fixed(real(circle, "x"), 3) << ", " << fixed(real(circle, "y"), 3)
+         << ") m radius " << fixed(real(circle, "radius"), 3) << " m sigma "
+         << fixed(sigma * 1e3, 2) << " mm (" << count(circle, "points") << " points);";
+  }
+  for (const Json& failure : message.at("failures")) {
+    text << " arc " << count(failure, "arc") << ' ' << text_of(failure, "reason") << ';';
+  }
+  return text.str();
+}
+
 // Appends " name value," for each single value and " name[length]," for each sequence.
 void append_fields(const Json& object, const std::string& prefix, std::string& text) {
   for (const auto& [name, value] : object.items()) {
@@ -144,7 +160,8 @@ constexpr std::pair<std::string_view, std::string (*)(const Json&)> texts[] = {
     {"quoin::msg::Scan", scan_text},
     {"quoin::msg::Segments", segments_text},
     {"quoin::msg::Lines", lines_text},
-    {"quoin::msg::Corners", corners_text}};
+    {"quoin::msg::Corners", corners_text},
+    {"quoin::msg::Circles", circles_text}};
 
 // Throws Json::exception for a message without our header, or of another version of its type.
 std::string own_text(std::string_view dds_type, const Json& message) {

@@ -14,6 +14,7 @@ constexpr std::array table{
     TopicType{"segments", "quoin::msg::Segments", "feature", "Segments.idl"},
     TopicType{"lines", "quoin::msg::Lines", "feature", "Lines.idl"},
     TopicType{"corners", "quoin::msg::Corners", "feature", "Corners.idl"},
+    TopicType{"circles", "quoin::msg::Circles", "feature", "Circles.idl"},
 };
 
 const TopicType* find(std::string_view TopicType::*column, std::string_view value) {

@@ -8,7 +8,7 @@
 /// and data representation have to fit the other side, the depth of the history is each side's own.
 typedef enum QosPreset {
   QOS_SENSOR,   // scans
-  QOS_FEATURE,  // segments, lines, corners
+  QOS_FEATURE,  // segments, lines, corners, circles
   QOS_STATE     // the keyed status topic: a late reader gets the latest of every service
 } QosPreset;
 

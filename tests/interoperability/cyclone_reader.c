@@ -27,6 +27,9 @@ static void print_lines(JsonWriter* writer, const void* message) {
 static void print_corners(JsonWriter* writer, const void* message) {
   write_corners(writer, "message", message);
 }
+static void print_circles(JsonWriter* writer, const void* message) {
+  write_circles(writer, "message", message);
+}
 static void print_status(JsonWriter* writer, const void* message) {
   write_status(writer, "message", message);
 }
@@ -43,6 +46,7 @@ static const MessageKind kinds[] = {
     {"/segments", &quoin_msg_Segments_desc, QOS_FEATURE, print_segments},
     {"/lines", &quoin_msg_Lines_desc, QOS_FEATURE, print_lines},
     {"/corners", &quoin_msg_Corners_desc, QOS_FEATURE, print_corners},
+    {"/circles", &quoin_msg_Circles_desc, QOS_FEATURE, print_circles},
     {"/status", &quoin_msg_ServiceStatus_desc, QOS_STATE, print_status},
 };
 
@@ -58,7 +62,8 @@ static const MessageKind* kind_of(const char* topic) {
   for (size_t i = 0; ending != NULL && i < sizeof kinds / sizeof kinds[0]; ++i) {
     if (strcmp(ending, kinds[i].ending) == 0) return &kinds[i];
   }
-  fprintf(stderr, "'%s' ends in none of /scan, /segments, /lines, /corners, /status\n", topic);
+  fprintf(stderr, "'%s' ends in none of /scan, /segments, /lines, /corners, /circles, /status\n",
+          topic);
   exit(2);
 }
 

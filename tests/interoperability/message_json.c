@@ -177,6 +177,47 @@ void write_corners(JsonWriter* writer, const char* name, const quoin_msg_Corners
   json_end_object(writer);
 }
 
+static void write_circle(JsonWriter* writer, const quoin_msg_Circle* circle) {
+  json_begin_object(writer, NULL);
+  json_double(writer, "x", circle->x);
+  json_double(writer, "y", circle->y);
+  json_double(writer, "radius", circle->radius);
+  json_double(writer, "covariance_xx", circle->covariance_xx);
+  json_double(writer, "covariance_xy", circle->covariance_xy);
+  json_double(writer, "covariance_yy", circle->covariance_yy);
+  json_double(writer, "covariance_x_radius", circle->covariance_x_radius);
+  json_double(writer, "covariance_y_radius", circle->covariance_y_radius);
+  json_double(writer, "covariance_radius", circle->covariance_radius);
+  json_double(writer, "arc_start", circle->arc_start);
+  json_double(writer, "arc_end", circle->arc_end);
+  json_bool(writer, "concave", circle->concave);
+  json_unsigned(writer, "points", circle->points);
+  json_double(writer, "chi_square", circle->chi_square);
+  json_double(writer, "nonlinearity", circle->nonlinearity);
+  json_unsigned(writer, "arc", circle->arc);
+  json_end_object(writer);
+}
+
+void write_circles(JsonWriter* writer, const char* name, const quoin_msg_Circles* circles) {
+  json_begin_object(writer, name);
+  write_header(writer, &circles->header);
+  write_sensor_model(writer, &circles->sensor_model);
+  json_begin_array(writer, "circles");
+  for (uint32_t i = 0; i < circles->circles._length; ++i) {
+    write_circle(writer, &circles->circles._buffer[i]);
+  }
+  json_end_array(writer);
+  json_begin_array(writer, "failures");
+  for (uint32_t i = 0; i < circles->failures._length; ++i) {
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "arc", circles->failures._buffer[i].arc);
+    json_string(writer, "reason", circles->failures._buffer[i].reason);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
 void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceStatus* status) {
   json_begin_object(writer, name);
   json_string(writer, "service", status->service);

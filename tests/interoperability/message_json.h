@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Circles.h"
 #include "Corners.h"
 #include "Lines.h"
 #include "Scan.h"
@@ -14,5 +15,6 @@ void write_scan(JsonWriter* writer, const char* name, const quoin_msg_Scan* scan
 void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segments* segments);
 void write_lines(JsonWriter* writer, const char* name, const quoin_msg_Lines* lines);
 void write_corners(JsonWriter* writer, const char* name, const quoin_msg_Corners* corners);
+void write_circles(JsonWriter* writer, const char* name, const quoin_msg_Circles* circles);
 /// What identifies the service, its state and its counts.
 void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceStatus* status);

@@ -4,6 +4,7 @@
 
 #include "sensor_bridge/replay/kind.hpp"
 #include "sensor_bridge/simulated/kind.hpp"
+#include "services/circle_fitting/kind.hpp"
 #include "services/corner_estimation/kind.hpp"
 #include "services/line_fitting/kind.hpp"
 #include "services/segmentation/kind.hpp"
@@ -21,9 +22,9 @@ namespace quoin::deploy {
 const KindList& kinds() {
   static const KindList all{{&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
                              &tests::odometer_kind(), &segmentation_kind(), &line_fitting_kind(),
-                             &corner_estimation_kind(), &tests::join_kind(), &tests::latest_kind(),
-                             &tests::own_rate_kind(), &tests::sink_kind(), &tests::observer_kind(),
-                             &tests::faulty_kind(), &external_kind()}};
+                             &corner_estimation_kind(), &circle_fitting_kind(), &tests::join_kind(),
+                             &tests::latest_kind(), &tests::own_rate_kind(), &tests::sink_kind(),
+                             &tests::observer_kind(), &tests::faulty_kind(), &external_kind()}};
   return all;
 }
 

@@ -23,8 +23,9 @@ std::vector<std::string> names_of(const std::vector<MethodInfo>& methods) {
 TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
   for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
-  EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator",
-                                 "segmentation", "line_fitting", "corner_estimation", "external"));
+  EXPECT_THAT(names,
+              ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "segmentation",
+                          "line_fitting", "corner_estimation", "circle_fitting", "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {
@@ -37,6 +38,14 @@ TEST(Kinds, FormAChainFromScansToCorners) {
     type = kind->outputs.front().type;
   }
   EXPECT_EQ(type, "corners");
+}
+
+TEST(Kinds, MakeCirclesOfWhatLinesAreMadeOf) {
+  const KindInfo* kind = deploy::find_kind("circle_fitting");
+  ASSERT_EQ(kind->inputs.size(), 1U);
+  EXPECT_EQ(kind->inputs.front().type, deploy::find_kind("line_fitting")->inputs.front().type);
+  ASSERT_EQ(kind->outputs.size(), 1U);
+  EXPECT_EQ(kind->outputs.front().type, "circles");
 }
 
 // What the wiring of a deployment relies on.
@@ -70,6 +79,8 @@ TEST(Kinds, KnowTheMethods) {
               testing::IsSupersetOf({"utls", "wtls", "wctls"}));
   EXPECT_THAT(names_of(deploy::find_kind("corner_estimation")->methods),
               testing::Contains("adjacent"));
+  EXPECT_THAT(names_of(deploy::find_kind("circle_fitting")->methods),
+              testing::IsSupersetOf({"maximum_likelihood", "taubin"}));
   EXPECT_THAT(deploy::find_kind("simulated")->methods, testing::IsEmpty());
 }
 

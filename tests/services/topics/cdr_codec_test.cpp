@@ -3,6 +3,7 @@
 #include "services/topics/cdr_codec.hpp"
 
 #include <cmath>
+#include <idl/Circles.h>
 #include <idl/Control.h>
 #include <idl/Corners.h>
 #include <idl/Lines.h>
@@ -129,6 +130,30 @@ TEST(CdrCodec, JsonOfCorners) {
                 R"("first_line":0,"second_line":1}],"without":[]})");
 }
 
+TEST(CdrCodec, JsonOfCircles) {
+  msg::Circles circles;
+  fill(circles.header());
+  fill(circles.sensor_model());
+  circles.circles().resize(1);
+  circles.circles()[0].x(1.5);
+  circles.circles()[0].radius(0.25);
+  circles.circles()[0].covariance_y_radius(-0.5);
+  circles.circles()[0].concave(true);
+  circles.circles()[0].points(12);
+  circles.circles()[0].arc(2);
+  circles.failures().resize(1);
+  circles.failures()[0].arc(1);
+  circles.failures()[0].reason("not_determined");
+  EXPECT_EQ(to_json(circles).dump(),
+            std::string("{") + header_json + "," + model_json +
+                R"(,"circles":[{"x":1.5,"y":0.0,"radius":0.25,"covariance_xx":0.0,)"
+                R"("covariance_xy":0.0,"covariance_yy":0.0,"covariance_x_radius":0.0,)"
+                R"("covariance_y_radius":-0.5,"covariance_radius":0.0,"arc_start":0.0,)"
+                R"("arc_end":0.0,"concave":true,"points":12,"chi_square":0.0,)"
+                R"("nonlinearity":0.0,"arc":2}],)"
+                R"("failures":[{"arc":1,"reason":"not_determined"}]})");
+}
+
 TEST(CdrCodec, JsonOfTypesOutsideTheTable) {
   msg::ServiceStatus status;
   status.state(msg::STATE_ACTIVE);
@@ -147,6 +172,7 @@ TEST(CdrCodec, TypesHaveTheNamesThatTheTableHas) {
   EXPECT_EQ(type_name<msg::Segments>(), find_topic_type("segments")->dds_type);
   EXPECT_EQ(type_name<msg::Lines>(), find_topic_type("lines")->dds_type);
   EXPECT_EQ(type_name<msg::Corners>(), find_topic_type("corners")->dds_type);
+  EXPECT_EQ(type_name<msg::Circles>(), find_topic_type("circles")->dds_type);
   EXPECT_EQ(cdr_codec<msg::Scan>().type_name, "quoin::msg::Scan");
   EXPECT_FALSE(cdr_codec<msg::Scan>().keyed);
   EXPECT_TRUE(cdr_codec<msg::ServiceStatus>().keyed);

@@ -43,6 +43,15 @@ TEST(MessageText, SegmentsLinesAndCorners) {
             "front #42 stamp 1.500000 laser +1.25 ms: 1 corners: (1.000, -2.000) m sigma 1.00 mm;");
 }
 
+TEST(MessageText, CirclesAndArcsWithoutOne) {
+  EXPECT_EQ(to_text("quoin::msg::Circles",
+                    with_header(R"({"circles": [{"x": 1.0, "y": -2.0, "radius": 0.25, "points": 12,
+                                                 "covariance_xx": 1e-6, "covariance_yy": 1e-6}],
+                                    "failures": [{"arc": 1, "reason": "not_determined"}]})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 1 circles: (1.000, -2.000) m radius 0.250 m "
+            "sigma 1.00 mm (12 points); arc 1 not_determined;");
+}
+
 TEST(MessageText, AnyOtherTypeShowsItsValues) {
   EXPECT_EQ(to_text("quoin::msg::New", with_header(R"({"pose": {"x": 1.5, "frame": "map"},
                                                        "points": [1, 2, 3], "valid": true})")),
