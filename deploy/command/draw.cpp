@@ -45,10 +45,7 @@ class Companion {
     if (!options.run) return;
     exclusive_.emplace(deployment);
     const auto observers = [&](const ServiceConfig& service) {
-      return &service == chain.segmentation || &service == chain.line_fitting ||
-                     &service == chain.corners
-                 ? 1
-                 : 0;
+      return chain.shows(service) ? 1 : 0;
     };
     Supervisor::Callbacks callbacks;
     callbacks.output = [this](const std::string& name, const std::string& line) {
@@ -142,15 +139,17 @@ int run(const DrawOptions& options) {
   }
   std::cout << options.output << ": " << drawing->title << "; " << drawing->points.size()
             << " points, " << drawing->lines.size() << " lines, " << drawing->corners.size()
-            << " corners\n";
+            << " corners";
+  if (!drawing->circles.empty()) std::cout << ", " << drawing->circles.size() << " circles";
+  std::cout << '\n';
   return exit_ok;
 }
 
 }  // namespace
 
 Command add_draw(CLI::App& app) {
-  CLI::App* line =
-      app.add_subcommand("draw", "Draw one scan with its lines, corners and 95 % ellipses as SVG");
+  CLI::App* line = app.add_subcommand(
+      "draw", "Draw one scan with its lines, corners, circles and 95 % ellipses as SVG");
   const auto options = std::make_shared<DrawOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
   line->add_option("--service", options->service, "Corner service whose result is drawn")

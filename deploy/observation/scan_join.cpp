@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/geometry/corner.hpp"
 #include "core/parameters/parameter.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
@@ -32,11 +33,17 @@ CornerChain corner_chain(const Deployment& deployment, const std::string& name) 
                             corners.kind + " gives no corners" + suggestion(name, names));
   }
   const Graph graph(deployment);
-  const CornerChain chain{&graph.source_of(corners), graph.upstream(corners, "segments"),
-                          graph.upstream(corners, "lines"), &corners};
+  CornerChain chain{&graph.source_of(corners), graph.upstream(corners, "segments"),
+                    graph.upstream(corners, "lines"), &corners, nullptr};
   if (chain.segmentation == nullptr || chain.line_fitting == nullptr) {
     throw std::out_of_range(deployment.file.string() + ": the corners of '" + name +
                             "' are not made of segments and lines");
+  }
+  for (const ServiceConfig& service : deployment.services) {
+    if (chain.circles == nullptr && service.output("circles") != nullptr &&
+        graph.upstream(service, "segments") == chain.segmentation) {
+      chain.circles = &service;
+    }
   }
   return chain;
 }
@@ -48,6 +55,9 @@ runtime::ParticipantConfig participant_of(const Deployment& deployment, const Co
   config.observes = {chain.segmentation->output("segments")->topic,
                      chain.line_fitting->output("lines")->topic,
                      chain.corners->output("corners")->topic};
+  if (chain.circles != nullptr) {
+    config.observes.push_back(chain.circles->output("circles")->topic);
+  }
   return config;
 }
 
@@ -71,6 +81,11 @@ ScanJoin::ScanJoin(const Deployment& deployment, const CornerChain& chain,
   wait_set_.add(segments_);
   wait_set_.add(lines_);
   wait_set_.add(corners_);
+  if (chain.circles != nullptr) {
+    const OutputConfig& output = *chain.circles->output("circles");
+    circles_.emplace(participant_, output.topic, runtime::observer_qos(*chain.circles, output));
+    wait_set_.add(*circles_);
+  }
 }
 
 template <class T>
@@ -90,12 +105,30 @@ std::optional<Drawing> ScanJoin::poll(std::chrono::milliseconds timeout) {
   take(segments_, &Parts::segments);
   take(lines_, &Parts::lines);
   take(corners_, &Parts::corners);
+  if (circles_) take(*circles_, &Parts::circles);
   for (const auto& [number, parts] : parts_) {
-    if (parts.segments && parts.lines && parts.corners) return draw(parts);
+    const bool round = parts.circles || !circles_;
+    if (parts.segments && parts.lines && parts.corners && round) return draw(parts);
   }
   while (parts_.size() > most_pending) parts_.erase(parts_.begin());
   return std::nullopt;
 }
+
+namespace {
+
+void add_circles(const msg::Circles& message, Drawing& drawing) {
+  for (const msg::Circle& circle : message.circles()) {
+    Eigen::Matrix2d covariance;
+    covariance << circle.covariance_xx(), circle.covariance_xy(), circle.covariance_xy(),
+        circle.covariance_yy();
+    const Ellipse shape = ellipse(covariance, chi_square_2_95);
+    drawing.circles.push_back(
+        {{{circle.x(), circle.y()}, shape.semi_major, shape.semi_minor, shape.direction},
+         circle.radius()});
+  }
+}
+
+}  // namespace
 
 Drawing ScanJoin::draw(const Parts& parts) const {
   Drawing drawing;
@@ -116,6 +149,7 @@ Drawing ScanJoin::draw(const Parts& parts) const {
                                corner.ellipse95_minor(),
                                corner.ellipse95_direction()});
   }
+  if (parts.circles) add_circles(*parts.circles, drawing);
   drawing.title =
       chain_.corners->name + ", scan " + std::to_string(topics::sequence_number(segments.header()));
   // The methods that made the result, which control may have swapped since the start.

@@ -149,6 +149,27 @@ void draw_scan(Svg& svg, const Drawing& drawing, const Projection& to) {
   svg.close("g");
 }
 
+bool drawn(const DrawnCircle& circle, const Projection& to) {
+  return finite(circle.center) && std::isfinite(circle.radius) && to.shows(circle.center.position);
+}
+
+/// Those whose centre lies in the picture; a round wall goes on outside of it.
+void draw_circles(Svg& svg, const Drawing& drawing, const Projection& to, double ellipse_scale) {
+  if (drawing.circles.empty()) return;
+  svg.open("g", {{"class", "circles"}});
+  for (const DrawnCircle& circle : drawing.circles) {
+    if (!drawn(circle, to)) continue;
+    const double enlarged = to.scale * ellipse_scale;
+    const double x = to.x(circle.center.position.x);
+    const double y = to.y(circle.center.position.y);
+    svg.circle("round", x, y, circle.radius * to.scale);
+    svg.ellipse("center", x, y, circle.center.semi_major * enlarged,
+                circle.center.semi_minor * enlarged, -circle.center.direction * degrees_per_radian);
+    svg.circle("middle", x, y, 2.0);
+  }
+  svg.close("g");
+}
+
 std::string ellipse_style(std::size_t series) {
   return series == 0 ? "uncertainty"
                      : "uncertainty s" + std::to_string(std::min<std::size_t>(series, 2));
@@ -210,6 +231,11 @@ void draw_legend(Svg& svg, const Drawing& drawing, double ellipse_scale, std::si
   entry(std::to_string(drawing.points.size()) + " points");
   svg.line("fitted", x - 8.0, y, x + 8.0, y);
   entry(std::to_string(drawing.lines.size()) + " lines");
+  if (!drawing.circles.empty()) {
+    svg.circle("round", x, y, 7.0);
+    svg.circle("middle", x, y, 2.0);
+    entry(std::to_string(drawing.circles.size()) + " circles");
+  }
   svg.ellipse("uncertainty", x, y, 9.0, 5.0, 0.0);
   svg.circle("corner", x, y, 2.5);
   const std::size_t sets = std::max<std::size_t>(1, drawing.series.size());
@@ -235,6 +261,8 @@ constexpr StyleSheet style{
     ".minor{stroke:#e6e6e6}.axis{stroke:#b0b0b0}"
     ".point{fill:#4a6fa5}.fitted{stroke:#e07b00;stroke-width:2;stroke-linecap:round}"
     ".uncertainty{fill:#c62828;fill-opacity:.18;stroke:#c62828;stroke-width:1.2}"
+    ".round{fill:none;stroke:#7b1fa2;stroke-width:1.6}"
+    ".center{fill:#7b1fa2;fill-opacity:.18;stroke:#7b1fa2;stroke-width:1.2}.middle{fill:#7b1fa2}"
     ".corner{fill:#c62828}.sensor{fill:#2e7d32;stroke:#2e7d32;stroke-width:2}"
     ".compared ellipse{fill-opacity:0;stroke-width:1.8}"
     ".s1{fill:#00695c;stroke:#00897b;stroke-dasharray:7 3}"
@@ -243,6 +271,7 @@ constexpr StyleSheet style{
     ".background{fill:#14171c}text{fill:#e4e6ea}.tick{fill:#9aa3ad}.minor{stroke:#2a2f37}"
     ".axis{stroke:#59616c}.point{fill:#8fb4e8}.fitted{stroke:#ffa94d}"
     ".uncertainty{fill:#ff7a7a;stroke:#ff7a7a}.corner{fill:#ff7a7a}"
+    ".round{stroke:#ce93d8}.center{fill:#ce93d8;stroke:#ce93d8}.middle{fill:#ce93d8}"
     ".s1{fill:#4fd1c0;stroke:#4fd1c0}.s2{fill:#6cb2ff;stroke:#6cb2ff}"
     ".sensor{fill:#7ddc85;stroke:#7ddc85}.bar{stroke:#e4e6ea}"};
 
@@ -250,9 +279,11 @@ constexpr StyleSheet style{
 
 double readable_ellipse_scale(const Drawing& drawing, double pixels_per_metre) {
   std::vector<double> axes;
-  for (const DrawnCorner& corner : drawing.corners) {
+  const auto add = [&](const DrawnCorner& corner) {
     if (finite(corner) && corner.semi_major > 0.0) axes.push_back(corner.semi_major);
-  }
+  };
+  for (const DrawnCorner& corner : drawing.corners) add(corner);
+  for (const DrawnCircle& circle : drawing.circles) add(circle.center);
   if (axes.empty()) return 1.0;
   const auto median = axes.begin() + static_cast<std::ptrdiff_t>(axes.size() / 2);
   std::nth_element(axes.begin(), median, axes.end());
@@ -271,6 +302,7 @@ std::string draw_svg(const Drawing& drawing, const DrawingOptions& options) {
   svg.text("caption", margin, 46.0, drawing.caption);
   draw_grid(svg, to, step);
   draw_scan(svg, drawing, to);
+  draw_circles(svg, drawing, to, scale);
   const std::size_t outside = draw_corners(svg, drawing, to, scale);
   draw_sensor(svg, to);
   draw_legend(svg, drawing, scale, outside, to.bottom() + 60.0);

@@ -27,6 +27,11 @@ struct DrawnCorner {
   std::size_t series = 0;   ///< index in Drawing::series
 };
 
+struct DrawnCircle {
+  DrawnCorner center;   ///< with its ellipse
+  double radius = 0.0;  ///< [m]
+};
+
 /// One scan with what was found in it.
 struct Drawing {
   std::string title;
@@ -34,6 +39,7 @@ struct Drawing {
   std::vector<DrawnPoint> points;
   std::vector<DrawnLine> lines;
   std::vector<DrawnCorner> corners;
+  std::vector<DrawnCircle> circles;
   std::string ellipses = "95 % ellipses";  ///< what the ellipses are
   /// Names of up to three sets of corners that are to be distinguished; none when there is one set.
   std::vector<std::string> series;

@@ -53,6 +53,23 @@ TEST(Drawing, IsWellFormedAndEscaped) {
   EXPECT_THAT(svg, HasSubstr("1 corners with 95 % ellipses"));
 }
 
+TEST(Drawing, ShowsCirclesToScaleWhereThereAreSome) {
+  Drawing drawing = room();
+  EXPECT_TRUE(svg_elements(draw_svg(drawing), "round").empty());
+  EXPECT_THAT(draw_svg(drawing), Not(HasSubstr("circles")));
+  drawing.circles = {{{{2.0, 1.0}, 0.02, 0.01, 0.5}, 0.5},
+                     {{{2.0, 1.0}, 0.02, 0.01, 0.5}, std::numeric_limits<double>::quiet_NaN()}};
+  const std::string svg = draw_svg(drawing);
+  expect_well_formed(svg);
+  EXPECT_THAT(svg, HasSubstr("2 circles"));
+  const auto circles = svg_elements(svg, "round");
+  ASSERT_EQ(circles.size(), 2U) << "one, and one in the legend";
+  const auto points = points_of(svg);
+  const double pixels_per_metre = (points[1].x - points[2].x) / 4.0;
+  EXPECT_NEAR(circles[0].number("r"), 0.5 * pixels_per_metre, 0.02);
+  EXPECT_NEAR(circles[0].number("cx"), points[2].x + 2.0 * pixels_per_metre, 0.02);
+}
+
 TEST(Drawing, PutsPointsWhereTheyAre) {
   const auto points = points_of(draw_svg(room()));
   ASSERT_EQ(points.size(), 3U);
