@@ -62,6 +62,30 @@ std::vector<Points> timing_walls(std::size_t points) {
   return walls;
 }
 
+std::vector<Points> timing_columns(std::size_t points) {
+  std::vector<Points> columns(points < 10000 ? 16 : 2);
+  Random random(20260422);
+  const SensorModel sensor;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    Points& column = columns[k];
+    column.resize(points);
+    const double radius = 0.2 + 0.1 * static_cast<double>(k);
+    const double to_center = radius + distance;
+    const double half = 0.98 * std::asin(radius / to_center);
+    for (std::size_t i = 0; i < points; ++i) {
+      const double off =
+          half * (2.0 * static_cast<double>(i) / static_cast<double>(points - 1) - 1.0);
+      const double across = to_center * std::sin(off);
+      column.range[i] = to_center * std::cos(off) - std::sqrt(radius * radius - across * across) +
+                        sensor.range_stddev * random.normal();
+      column.bearing[i] =
+          0.37 * static_cast<double>(k) + off + sensor.bearing_stddev * random.normal();
+    }
+    compute_cartesian(column);
+  }
+  return columns;
+}
+
 Eigen::Matrix2d plain_covariance(const PointsView& points) {
   const auto size = static_cast<Eigen::Index>(points.size());
   const Eigen::Map<const Eigen::ArrayXd> x(points.x.data(), size);
@@ -79,6 +103,12 @@ double seconds_per_fit(const Fitter& fitter, const std::vector<Points>& walls) {
   const SensorModel sensor;
   return seconds_per_wall(walls,
                           [&](const Points& wall) { return fitter(wall, sensor).estimate.line.r; });
+}
+
+double seconds_per_fit(const CircleFitter& fitter, const std::vector<Points>& columns) {
+  const SensorModel sensor;
+  return seconds_per_wall(
+      columns, [&](const Points& column) { return fitter(column, sensor).estimate.circle.radius; });
 }
 
 double seconds_per_plain_covariance(const std::vector<Points>& walls) {

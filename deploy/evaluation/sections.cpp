@@ -11,6 +11,7 @@ const std::vector<SectionKind>& section_kinds() {
       {"pca_paper", "The PCA paper's simulations", make_pca_paper_section},
       {"consistency", "Consistency of fitters", make_consistency_section},
       {"lines", "Lines of any length and distance", make_lines_section},
+      {"circles", "Consistency of circles", make_circles_section},
       {"loop", "Coverage with segmentation in the loop", make_loop_section},
       {"segmenters", "Segmenters", make_segmenters_section},
       {"robustness", "Stray returns, few rays and round things", make_robustness_section},
