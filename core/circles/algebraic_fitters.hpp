@@ -7,8 +7,9 @@
 
 namespace quoin {
 
-/// The algebraic circle with the covariance that the noise of each ray gives it, to first order
-/// that of the circle with the least squared distances: its points have one weight.
+/// The algebraic circle, less the bias that noise along the circle and along the rays gives it to
+/// second order, with the covariance that the noise of each ray gives it, to first order that of
+/// the circle with the least squared distances: its points have one weight.
 [[nodiscard]] CircleFit fit_algebraic(const PointsView& points, const SensorModel& sensor,
                                       CircleConstraint constraint,
                                       const CircleParameters& parameters);
@@ -17,12 +18,11 @@ class TaubinCircle {
  public:
   static constexpr const char* name = "taubin";
   static constexpr const char* description =
-      "algebraic circle, squares over the mean squared gradient; no iteration over the points";
+      "algebraic circle, squares over the mean squared gradient, less its bias; no iteration";
   static constexpr const char* source = "Taubin 1991";
   static constexpr const char* choose =
-      "Where a noise model is not to be relied on for the circle itself. All points count alike, "
-      "so that it is less accurate than maximum_likelihood where the incidence varies, and biased "
-      "where the noise is not small against the radius.";
+      "Where a noise model is not to be relied on for weights. All points count alike, so that it "
+      "is less accurate than maximum_likelihood where the incidence varies, as on a whole column.";
 
   using Parameters = CircleParameters;
 
@@ -41,10 +41,10 @@ class PrattCircle {
  public:
   static constexpr const char* name = "pratt";
   static constexpr const char* description =
-      "algebraic circle, squares over the squared radius in algebraic terms";
+      "algebraic circle, squares over the squared radius, less its bias";
   static constexpr const char* source = "Pratt 1987";
   static constexpr const char* choose =
-      "To compare with taubin: the same to first order, with the larger bias of the radius.";
+      "To compare with taubin: the same to first order, with twice the bias to take off.";
 
   using Parameters = CircleParameters;
 
@@ -63,11 +63,11 @@ class HyperCircle {
  public:
   static constexpr const char* name = "hyper";
   static constexpr const char* description =
-      "algebraic circle without the bias that noise alike in all directions gives taubin";
+      "algebraic circle that noise alike in all directions does not bias";
   static constexpr const char* source = "Al-Sharadqah and Chernov 2009";
   static constexpr const char* choose =
-      "Where taubin would do and the noise of range and bearing are about as large. That of a "
-      "lidar mostly is not, and then it has bias of another kind.";
+      "Where taubin would do and the noise of range and bearing are about as large: then there is "
+      "no bias to take off.";
 
   using Parameters = CircleParameters;
 

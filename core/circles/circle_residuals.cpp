@@ -92,22 +92,35 @@ void add_up(const double* __restrict x, const double* __restrict y, const double
   out = sums;
 }
 
+/// Sums of g g^T, of v g g^T and of what makes the bias.
+struct EqualSums {
+  CircleSums plain;
+  CircleSums noisy;
+  double bias_x = 0.0, bias_y = 0.0, bias_radius = 0.0;
+};
+
 QUOIN_MULTIVERSION
 void add_up_equal(const double* __restrict x, const double* __restrict y,
                   const double* __restrict cosine, const double* __restrict sine,
                   const double* __restrict range, std::size_t count, const Circle& circle,
-                  const PolarVariances& variances, CircleSums& plain, CircleSums& noisy) {
+                  const PolarVariances& variances, EqualSums& out) {
   const Circle c = circle;
   const PolarVariances noise = variances;
   const double second_order = 0.5 / (c.radius * c.radius);
   CircleSums h;
   CircleSums m;
+  double bias_x = 0.0;
+  double bias_y = 0.0;
+  double bias_radius = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Incidence p = incidence(x[i], y[i], cosine[i], sine[i], range[i], c, noise);
     const double cc = p.cosine * p.cosine;
     const double ss = p.sine * p.sine;
     const double u = p.range_variance * ss + p.across_variance * cc;
-    const double v = p.range_variance * cc + p.across_variance * ss + second_order * u * u;
+    const double first = p.range_variance * cc + p.across_variance * ss;
+    const double v = first + second_order * u * u;
+    const double mixed = (p.range_variance - p.across_variance) * p.sine * p.cosine;
+    const double normal = 0.5 * (3.0 * first + u);
     const double xx = p.normal_x * p.normal_x;
     const double xy = p.normal_x * p.normal_y;
     const double yy = p.normal_y * p.normal_y;
@@ -122,10 +135,12 @@ void add_up_equal(const double* __restrict x, const double* __restrict y,
     m.x += v * p.normal_x;
     m.y += v * p.normal_y;
     m.one += v;
+    bias_x += normal * p.normal_x - mixed * p.normal_y;
+    bias_y += normal * p.normal_y + mixed * p.normal_x;
+    bias_radius += 0.5 * (first + u);
   }
   h.one = static_cast<double>(count);
-  plain = h;
-  noisy = m;
+  out = {h, m, bias_x, bias_y, bias_radius};
 }
 
 }  // namespace
@@ -157,16 +172,19 @@ std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& matrix) {
                          {scale * last, scale * mixed, scale * ad}};
 }
 
-std::optional<Eigen::Matrix3d> equal_weights_covariance(const PointsView& points,
-                                                        const Circle& circle,
-                                                        const PolarVariances& variances) {
-  CircleSums plain;
-  CircleSums noisy;
+std::optional<EqualWeights> equal_weights(const PointsView& points, const Circle& circle,
+                                          const PolarVariances& variances) {
+  EqualSums sums;
   add_up_equal(points.x.data(), points.y.data(), points.cosine.data(), points.sine.data(),
-               points.range.data(), points.size(), circle, variances, plain, noisy);
-  const auto inverse = inverse_of(plain.information());
+               points.range.data(), points.size(), circle, variances, sums);
+  const auto inverse = inverse_of(sums.plain.information());
   if (!inverse) return std::nullopt;
-  return *inverse * noisy.information() * *inverse;
+  const Eigen::Matrix3d by_radius = *inverse / circle.radius;
+  const double mean = sums.noisy.one / sums.plain.one;
+  return EqualWeights{*inverse * sums.noisy.information() * *inverse,
+                      by_radius * Eigen::Vector3d(sums.bias_x, sums.bias_y, sums.bias_radius),
+                      mean * (by_radius * Eigen::Vector3d(sums.plain.x, sums.plain.y, 0.0)),
+                      sums.noisy.one * by_radius.col(2)};
 }
 
 void add_range_bias(const PointsView& points, const SensorModel& sensor, bool weighted,

@@ -54,10 +54,21 @@ struct CircleSums {
 [[nodiscard]] CircleSums circle_sums(const PointsView& points, const Circle& circle,
                                      const PolarVariances& variances);
 
-/// Covariance of the circle with the least sum of squared distances, all of one weight: H^-1 (sum
-/// of v g g^T) H^-1 with H the sum of g g^T. Nothing when H is singular.
-[[nodiscard]] std::optional<Eigen::Matrix3d> equal_weights_covariance(
-    const PointsView& points, const Circle& circle, const PolarVariances& variances);
+/// What the noise makes of a circle whose points have one weight.
+struct EqualWeights {
+  Eigen::Matrix3d covariance;  ///< [m^2] H^-1 (sum of v g g^T) H^-1 with H the sum of g g^T
+  Eigen::Vector3d bias;        ///< [m] of second order, if its algebraic distance has one weight
+  Eigen::Vector3d by_scale;    ///< [m] what a constraint adds to that: H^-1 (sum of v) (mean n, 0)
+  Eigen::Vector3d by_radius;   ///< [m] and H^-1 (sum of v) (0, 0, 1), both over the radius
+};
+
+/// Nothing when H is singular. With e and t the errors across and along the circle, of variances v
+/// and u and covariance c, the algebraic distance F = |p - center|^2 - radius^2 is
+/// 2 radius e + e^2 + t^2, and the expectations of F and of F (p - center) are not zero:
+/// bias = H^-1 sum of ((3 v + u) normal / 2 + c tangent, (v + u) / 2) / radius.
+[[nodiscard]] std::optional<EqualWeights> equal_weights(const PointsView& points,
+                                                        const Circle& circle,
+                                                        const PolarVariances& variances);
 
 /// Inverse of a symmetric matrix by its cofactors; nothing when it is not positive definite beyond
 /// rounding.

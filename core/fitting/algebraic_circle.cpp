@@ -11,7 +11,7 @@ namespace quoin {
 namespace {
 
 constexpr int newton_steps = 20;
-constexpr double rounding = 1e-14;
+constexpr double small_step = 1e-8;  // the next is its square
 
 /// Means over the points; z = x^2 + y^2.
 struct Moments {
@@ -112,7 +112,7 @@ std::optional<Circle> fit_algebraic_circle(const PointsView& points, CircleConst
     const double step = value / slope;
     if (!std::isfinite(step)) break;
     root -= step;
-    if (std::abs(step) <= rounding * z) break;
+    if (std::abs(step) <= small_step * z) break;
   }
   const double scale = 0.5 / (determinant - root * (z - root));
   const Eigen::Vector2d center(scale * (m.xz * (m.yy - root) - m.yz * m.xy),
