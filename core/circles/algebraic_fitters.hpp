@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/circles/circle_fit.hpp"
-#include "core/fitting/algebraic_circle.hpp"
+#include "core/fitting/circle.hpp"
 
 namespace quoin {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/circles/circle_residuals.hpp"
-#include "core/fitting/algebraic_circle.hpp"
 
 namespace quoin {
 namespace {

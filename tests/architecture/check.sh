@@ -35,10 +35,10 @@ deny sensor_bridge/rplidar/driver 'core/|deploy/|idl/|services/|sensor_bridge/rp
 deny sensor_bridge/rplidar/emulator 'deploy/|idl/|services/|sensor_bridge/(rplidar/driver|transport)' \
   "the RPLIDAR emulator knows the protocol and simulated worlds" 'sensor_bridge/transport/file_descriptor\.hpp"$'
 deny deploy "$dds" "deploy/ reaches DDS through the service kit only"
-deny deploy 'core/(segmentation|fitting|corners)/' "deploy/ reaches methods through the method lists" \
-  'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?)\.hpp'
+deny deploy 'core/(segmentation|fitting|corners|circles)/' "deploy/ reaches methods through the method lists" \
+  'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?|circles/circle_fit(ters)?)\.hpp'
 # `quoin evaluate` is there to run methods; what starts and watches processes runs none.
-deny deploy 'core/(evaluation/(consistency|loop_coverage|segmentation_quality)|extraction|simulation)' \
+deny deploy 'core/(evaluation/((circle_)?consistency|loop_coverage|segmentation_quality)|extraction|simulation)' \
   "deploy/ runs no methods outside deploy/evaluation" '^deploy/evaluation/'
 deny deploy/evaluation 'deploy/(orchestration|command|diagnostics)/|idl/|services/(runtime|topics|keys)/' \
   "the evaluation needs no DDS and no deployment"
@@ -60,7 +60,7 @@ for main in services/*/main.cpp; do
 done
 deny tests/interoperability 'core/|deploy/|idl/|sensor_bridge/|services/|tests/' \
   "the programs of another DDS know nothing but our IDL files"
-deny services/runtime 'core/(segmentation|fitting|corners|simulation)|sensor_bridge/' \
+deny services/runtime 'core/(segmentation|fitting|corners|circles|simulation)|sensor_bridge/' \
   "the service kit knows no algorithm"
 
 sources() {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/algebraic_circle.hpp"
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "core/fitting/circle.hpp"
 #include "tests/core/wall_points.hpp"
 
 namespace quoin {

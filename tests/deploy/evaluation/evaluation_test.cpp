@@ -9,8 +9,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "core/circles/circle_fitters.hpp"
 #include "core/corners/corner_finders.hpp"
 #include "core/evaluation/line_coverage.hpp"
+#include "core/evaluation/circle_consistency.hpp"
 #include "core/evaluation/loop_coverage.hpp"
 #include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/evaluation/papers/pca_paper.hpp"
@@ -134,6 +136,32 @@ TEST(Evaluation, LinesAreThoseOfADirectComputation) {
   EXPECT_EQ((*cell)["coverage_alpha_r"].get<double>(), direct.alpha_r.value);
   // A short wall far away is met by too few rays.
   for (const json& each : cells) EXPECT_FALSE(each["length"] == 0.2 && each["distance"] == 10.0);
+}
+
+TEST(Evaluation, CirclesAreThoseOfADirectComputation) {
+  const json report = report_of(quick("circles"));
+  const json& cells = report["circles"]["cells"];
+  const auto cell = std::find_if(cells.begin(), cells.end(), [](const json& each) {
+    return each["name"] == "taubin" && each["radius"] == 0.5 && each["distance"] == 1.5 &&
+           each["range_stddev"] == 0.003;
+  });
+  ASSERT_NE(cell, cells.end());
+  const SensorModel noise = rplidar_noise(0.003);
+  const CircleConsistency direct = judge_circle_consistency(
+      CircleFitters::make<CircleFitter>("taubin", {}), {0.5, 1.5}, noise, 40,
+      derived_seed(1, "circles/column of 0.50 m at 1.0 m/" + noise_text(noise)));
+  EXPECT_EQ((*cell)["found"], 40);
+  EXPECT_EQ((*cell)["coverage95"].get<double>(), direct.coverage95.value);
+  EXPECT_EQ((*cell)["coverage95_center"].get<double>(), direct.coverage95_center.value);
+  EXPECT_EQ((*cell)["rmse_over_crb"].get<double>(), direct.rmse_over_crb.value);
+  EXPECT_EQ((*cell)["rmse_over_crb_interval"][0].get<double>(), direct.rmse_over_crb.low);
+  // As large as the noise: there is nothing to find, and no figures of it.
+  const auto lost = std::find_if(cells.begin(), cells.end(), [](const json& each) {
+    return each["radius"] == 0.05 && each["range_stddev"] == 0.05 && each["found"] == 0;
+  });
+  ASSERT_NE(lost, cells.end());
+  EXPECT_FALSE(lost->contains("coverage95"));
+  EXPECT_GT((*lost)["failures"]["not_determined"].get<int>(), 30);
 }
 
 TEST(Evaluation, LoopIsThatOfADirectComputation) {
