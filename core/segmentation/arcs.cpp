@@ -167,6 +167,44 @@ void make_round(Piece& piece) {
   piece.line.reset();
 }
 
+// A circle through fewer says nothing of itself.
+constexpr std::size_t fewest_on_arc = 5;
+
+/// Whether the middle is nearer to the sensor than the chord: its point on the ray through the
+/// middle is where the cross product with the chord is that of the chord's ends.
+bool is_convex(const PointsView& points, const Segment& run) {
+  const std::size_t last = run.end - 1;
+  const std::size_t middle = run.begin + run.size() / 2;
+  const double dx = points.x[last] - points.x[run.begin];
+  const double dy = points.y[last] - points.y[run.begin];
+  const double of_chord = points.x[run.begin] * dy - points.y[run.begin] * dx;
+  const double of_middle = points.x[middle] * dy - points.y[middle] * dx;
+  return std::abs(of_middle) < std::abs(of_chord);
+}
+
+/// Looks for round runs among points that are on nothing.
+struct ThinSearch {
+  const PointsView& points;
+  const ArcFinder& finder;
+  const BreakpointDetector& breakpoints;
+  CoarsePoints& coarse;
+  std::vector<Segment>& arcs;
+
+  /// Points [begin, end), which are on nothing.
+  void operator()(std::size_t begin, std::size_t end) const {
+    if (end < begin + fewest_on_arc) return;
+    coarse.assign(points.subview(begin, end));
+    for (std::size_t first = begin; first + fewest_on_arc <= end;) {
+      std::size_t next = first + 1;
+      while (next < end && breakpoints.connected(coarse, next - 1 - begin, next - begin)) ++next;
+      const Segment run{first, next};
+      first = next;
+      if (run.size() < fewest_on_arc || !is_convex(points, run)) continue;
+      if (finder.is_arc({run})) arcs.push_back(run);
+    }
+  }
+};
+
 }  // namespace
 
 void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolerance& tolerance,
@@ -191,6 +229,34 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
     ++kept;
   }
   pieces.resize(kept);
+}
+
+void ThinThings::find(const PointsView& scan, const SensorModel& sensor,
+                      const BreakpointDetector& breakpoints, double flatness, Segmentation& found) {
+  taken_.assign(found.segments.begin(), found.segments.end());
+  taken_.insert(taken_.end(), found.arcs.begin(), found.arcs.end());
+  std::sort(taken_.begin(), taken_.end(),
+            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  const std::size_t before = found.arcs.size();
+  const Tolerance unused;  // is for pairs of pieces
+  const ArcFinder finder(scan, sensor, unused, flatness);
+  const ThinSearch search{scan, finder, breakpoints, coarse_, found.arcs};
+  std::size_t begin = 0;
+  for (const Segment& run : taken_) {
+    search(begin, run.begin);
+    begin = run.end;
+  }
+  search(begin, scan.size());
+  for (std::size_t k = 0; k < found.foreign.size();) {
+    std::size_t next = k + 1;
+    while (next < found.foreign.size() && found.foreign[next] == found.foreign[next - 1] + 1)
+      ++next;
+    search(found.foreign[k], found.foreign[next - 1] + 1);
+    k = next;
+  }
+  if (found.arcs.size() == before) return;
+  std::sort(found.arcs.begin(), found.arcs.end(),
+            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
 }
 
 }  // namespace quoin

@@ -33,10 +33,17 @@ void set_aside(Points& points, Segmentation& found) {
                                       &points.cosine, &points.sine, &points.x, &points.y}) {
     move_behind(found.foreign, *values, memory);
   }
-  for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
-    for (Segment& run : *runs) run = without(found.foreign, run);
-  }
   const std::size_t first = points.size() - found.foreign.size();
+  for (Segment& run : found.segments) run = without(found.foreign, run);
+  for (Segment& run : found.arcs) {
+    const auto at = std::lower_bound(found.foreign.begin(), found.foreign.end(), run.begin);
+    const bool is_foreign = at != found.foreign.end() && *at == run.begin;
+    const std::size_t moved =
+        first + static_cast<std::size_t>(at - found.foreign.begin());  // of its first point
+    run = is_foreign ? Segment{moved, moved + run.size()} : without(found.foreign, run);
+  }
+  std::sort(found.arcs.begin(), found.arcs.end(),
+            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
   for (std::size_t k = 0; k < found.foreign.size(); ++k) found.foreign[k] = first + k;
 }
 

@@ -24,8 +24,10 @@ struct Segment {
 
 /// What a segmenter finds in a scan.
 struct Segmentation {
-  std::vector<Segment> segments;     ///< straight walls: ascending, disjoint
-  std::vector<Segment> arcs;         ///< round surfaces: ascending, apart from the segments
+  std::vector<Segment> segments;  ///< straight walls: ascending, disjoint
+  /// Round surfaces: ascending, apart from the segments but for those all of whose points are
+  /// foreign, such as a leg in front of a wall.
+  std::vector<Segment> arcs;
   std::vector<std::size_t> foreign;  ///< ascending: points inside of them that are not on them
 
   void clear() {
@@ -39,7 +41,7 @@ struct Segmentation {
 [[nodiscard]] Segment without(std::span<const std::size_t> left_out, const Segment& run);
 
 /// Moves the foreign points behind all others, where they keep their order, so that segments and
-/// arcs have no other points than their own; `foreign` becomes the last points.
+/// arcs have no other points than their own and are apart; `foreign` becomes the last points.
 void set_aside(Points& points, Segmentation& found);
 
 /// Finds what is in the points of a scan (as `convert` made them). The result is cleared first and

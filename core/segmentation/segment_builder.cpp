@@ -155,6 +155,7 @@ void SegmentBuilder::leave_out(std::span<const std::size_t> left_out) {
 PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sensor) {
   pieces_.clear();
   cluster_ = 0;
+  scan_ = scan;
   points_ = scan;
   removed_.clear();
   sensor_ = sensor;
@@ -224,7 +225,13 @@ void SegmentBuilder::finish(Segmentation& found) {
   if (parameters_.refine) refine_boundaries(points_, min_points, tolerance_, closed_, pieces_);
 
   select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found);
-  if (removed_.empty()) return;
+  if (!removed_.empty()) to_scan(found);
+  if (parameters_.merge) {
+    thin_things_.find(scan_, sensor_, breakpoints_, parameters_.flatness, found);
+  }
+}
+
+void SegmentBuilder::to_scan(Segmentation& found) const {
   for (std::vector<Segment>* runs : {&found.segments, &found.arcs}) {
     for (Segment& run : *runs) {
       run = {index_with(removed_, run.begin), index_with(removed_, run.end - 1) + 1};

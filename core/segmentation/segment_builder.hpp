@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/segmentation/arcs.hpp"
 #include "core/segmentation/breakpoints.hpp"
 #include "core/segmentation/pieces.hpp"
 #include "core/segmentation/segment.hpp"
@@ -46,10 +47,14 @@ class SegmentBuilder {
 
  private:
   void leave_out(std::span<const std::size_t> left_out);
+  /// The indices of own points become those of the scan; those in between are foreign.
+  void to_scan(Segmentation& found) const;
 
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
   Straightener straightener_;
+  ThinThings thin_things_;
+  PointsView scan_;
   PointsView points_;
   Points own_;                        // those of the scan without `removed_`, when there are any
   std::vector<std::size_t> removed_;  // in the scan, ascending

@@ -21,6 +21,15 @@ TEST(SetAside, MovesForeignPointsBehindAllOthersInTheirOrder) {
   EXPECT_THAT(found.foreign, ElementsAre(4, 5));
 }
 
+TEST(SetAside, TakesArcsOfForeignPointsWithThem) {
+  Points points = points_from({0.0, 0.1, 0.2, 0.3, 0.4, 0.5}, {10.0, 11.0, 12.0, 13.0, 14.0, 15.0});
+  Segmentation found{.segments = {{0, 4}}, .arcs = {{1, 3}, {4, 6}}, .foreign = {1, 2}};
+  set_aside(points, found);
+  EXPECT_THAT(points.range, ElementsAre(10.0, 13.0, 14.0, 15.0, 11.0, 12.0));
+  EXPECT_THAT(found.segments, ElementsAre(Segment{0, 2}));
+  EXPECT_THAT(found.arcs, ElementsAre(Segment{2, 4}, Segment{4, 6}));
+}
+
 TEST(SetAside, LeavesOrderedPointsAlone) {
   Points points = points_from({0.0, 0.1}, {10.0, 11.0});
   Segmentation found{.segments = {{0, 2}}, .arcs = {}, .foreign = {}};
