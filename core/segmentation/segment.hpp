@@ -29,11 +29,13 @@ struct Segmentation {
   /// foreign, such as a leg in front of a wall.
   std::vector<Segment> arcs;
   std::vector<std::size_t> foreign;  ///< ascending: points inside of them that are not on them
+  std::size_t no_return = 0;         ///< points with what the sensor writes where nothing came back
 
   void clear() {
     segments.clear();
     arcs.clear();
     foreign.clear();
+    no_return = 0;
   }
 };
 

@@ -161,6 +161,7 @@ PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sens
   sensor_ = sensor;
   left_out_.clear();
   find_fill(points_, sensor_, left_out_);
+  no_return_ = left_out_.size();
   if (!left_out_.empty()) leave_out(left_out_);
 
   const double noise = range_noise(points_);
@@ -201,6 +202,7 @@ void SegmentBuilder::add_all(std::vector<Segment>& pieces) {
 
 void SegmentBuilder::finish(Segmentation& found) {
   found.clear();
+  found.no_return = no_return_;
   const auto min_points = static_cast<std::size_t>(parameters_.min_points);
   if (parameters_.merge || parameters_.refine) {
     // What a method cut off a wall is joined to it before it counts as small.

@@ -66,6 +66,7 @@ class SegmentBuilder {
   std::vector<Piece> pieces_;
   std::vector<TestedBlocks> blocks_;  // of the pieces
   bool many_strays_ = false;
+  std::size_t no_return_ = 0;
   bool closed_ = false;      // the surface goes on from the last point to the first
   std::size_t cluster_ = 0;  // of the last piece
 };

@@ -81,9 +81,19 @@ std::string scan_text(const Json& scan) {
 std::string segments_text(const Json& message) {
   std::ostringstream text;
   text << ' ' << message.at("segments").size() << " segments of " << message.at("ranges").size()
-       << " points:";
+       << " points";
+  if (const auto no_return = message.value("no_return", std::uint64_t{0}); no_return > 0) {
+    text << ", " << no_return << " of them no return";
+  }
+  text << ':';
   for (const Json& range : message.at("segments")) {
     text << ' ' << count(range, "begin") << ".." << count(range, "end");
+  }
+  if (const auto arcs = message.find("arcs"); arcs != message.end() && !arcs->empty()) {
+    text << "; " << arcs->size() << " arcs:";
+    for (const Json& range : *arcs) {
+      text << ' ' << count(range, "begin") << ".." << count(range, "end");
+    }
   }
   return text.str();
 }

@@ -41,6 +41,7 @@ void fill_segments(const msg::Scan& scan, const Points& points, const Segmentati
   fill_ranges(found.segments, out.segments());
   fill_ranges(found.arcs, out.arcs());
   out.set_aside(static_cast<std::uint32_t>(found.foreign.size()));
+  out.no_return(static_cast<std::uint32_t>(found.no_return));
 }
 
 bool valid(const msg::Segments& message) {

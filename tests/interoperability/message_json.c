@@ -134,6 +134,7 @@ void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segmen
   write_ranges(writer, "segments", segments->segments._buffer, segments->segments._length);
   write_ranges(writer, "arcs", segments->arcs._buffer, segments->arcs._length);
   json_unsigned(writer, "set_aside", segments->set_aside);
+  json_unsigned(writer, "no_return", segments->no_return);
   json_end_object(writer);
 }
 

@@ -41,6 +41,25 @@ TEST(SegmentBuilder, MergesWhatIsOneLine) {
   EXPECT_EQ(build(noisy_wall(), cut, parameters), cut);
 }
 
+TEST(SegmentBuilder, CountsPointsOfNoReturn) {
+  std::mt19937_64 engine(4);
+  const Points wall = wall_points({0.2, 2.0}, -0.3, 0.5, 120, {}, engine);
+  std::vector<double> bearings = wall.bearing;
+  std::vector<double> ranges = wall.range;
+  for (int i = 0; i < 40; ++i) {
+    bearings.push_back(0.6 + 0.02 * i);
+    ranges.push_back(8.0);
+  }
+  SegmentBuilder builder{{}};
+  Segmentation found;
+  (void)builder.start(points_from(bearings, ranges), {});
+  builder.finish(found);
+  EXPECT_EQ(found.no_return, 40U);
+  (void)builder.start(wall, {});
+  builder.finish(found);
+  EXPECT_EQ(found.no_return, 0U);
+}
+
 TEST(SegmentBuilder, LeavesOutWhatNoPieceHas) {
   SegmentationParameters parameters;
   parameters.merge = false;

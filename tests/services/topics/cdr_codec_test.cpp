@@ -83,7 +83,7 @@ TEST(CdrCodec, JsonOfSegments) {
   EXPECT_EQ(to_json(segments).dump(),
             std::string("{") + header_json + "," + model_json +
                 R"(,"scan_points":720,"bearings":[0.5],"ranges":[2.5],)"
-                R"("segments":[{"begin":0,"end":1}],"arcs":[],"set_aside":0})");
+                R"("segments":[{"begin":0,"end":1}],"arcs":[],"set_aside":0,"no_return":0})");
 }
 
 TEST(CdrCodec, JsonOfLines) {

@@ -32,6 +32,11 @@ TEST(MessageText, SegmentsLinesAndCorners) {
   EXPECT_EQ(to_text("quoin::msg::Segments",
                     with_header(R"({"ranges": [1, 1, 1], "segments": [{"begin": 0, "end": 3}]})")),
             "front #42 stamp 1.500000 laser +1.25 ms: 1 segments of 3 points: 0..3");
+  EXPECT_EQ(to_text("quoin::msg::Segments",
+                    with_header(R"({"ranges": [1, 1, 1, 1], "segments": [{"begin": 0, "end": 2}],
+                                    "arcs": [{"begin": 2, "end": 3}], "no_return": 1})")),
+            "front #42 stamp 1.500000 laser +1.25 ms: 1 segments of 4 points, 1 of them no return: "
+            "0..2; 1 arcs: 2..3");
   EXPECT_EQ(to_text("quoin::msg::Lines",
                     with_header(R"({"lines": [{"alpha": 1.5707963267948966, "r": 2.0, "points": 9}],
                                     "failures": [{"segment": 1, "reason": "too_few_points"}]})")),
