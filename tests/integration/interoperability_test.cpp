@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <idl/Circles.h>
 #include <idl/Corners.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
@@ -73,10 +74,11 @@ TEST_F(Interoperability, CycloneReadsEveryFieldOfEveryMessageOfTheChain) {
   - {name: walls, kind: segmentation, input: front, method: iepf}
   - {name: wctls, kind: line_fitting, input: walls, method: wctls}
   - {name: corners, kind: corner_estimation, input: wctls, method: adjacent}
+  - {name: columns, kind: circle_fitting, input: walls}
 )",
                                   "qos: lossless\n");
   runtime::Participant participant(deployment.participant("test"));
-  const std::vector<std::string> services{"corners", "wctls", "walls", "front"};
+  const std::vector<std::string> services{"columns", "corners", "wctls", "walls", "front"};
   std::vector<std::string> arguments{std::to_string(deployment.deployment().domain),
                                      std::to_string(scans)};
   for (const std::string& service : services) arguments.push_back(deployment.topic(service));
@@ -95,10 +97,11 @@ TEST_F(Interoperability, CycloneReadsEveryFieldOfEveryMessageOfTheChain) {
   Recorder<msg::Segments> our_segments(participant, deployment, "walls");
   Recorder<msg::Lines> our_lines(participant, deployment, "wctls");
   Recorder<msg::Corners> our_corners(participant, deployment, "corners");
+  Recorder<msg::Circles> our_circles(participant, deployment, "columns");
 
   EXPECT_TRUE(tests::eventually([&] {
-    return std::min({our_scans.poll(), our_segments.poll(), our_lines.poll(),
-                     our_corners.poll()}) >= scans;
+    return std::min({our_scans.poll(), our_segments.poll(), our_lines.poll(), our_corners.poll(),
+                     our_circles.poll()}) >= scans;
   }));
   EXPECT_EQ(cyclone.wait(20s), 0) << cyclone.errors();
   auto theirs = messages_of(cyclone);
@@ -106,6 +109,7 @@ TEST_F(Interoperability, CycloneReadsEveryFieldOfEveryMessageOfTheChain) {
   expect_same(theirs[deployment.topic("walls")], our_segments.messages());
   expect_same(theirs[deployment.topic("wctls")], our_lines.messages());
   expect_same(theirs[deployment.topic("corners")], our_corners.messages());
+  expect_same(theirs[deployment.topic("columns")], our_circles.messages());
   EXPECT_GE(our_corners.messages().back().corners().size(), 4U) << "a room has four corners";
 
   // Who comes late gets the latest heartbeat of every service that is alive; the source has ended.
