@@ -257,6 +257,19 @@ void ThinThings::find(const PointsView& scan, const SensorModel& sensor,
   if (found.arcs.size() == before) return;
   std::sort(found.arcs.begin(), found.arcs.end(),
             [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  // What is left over beside an arc may be more of it.
+  std::size_t kept = 0;
+  for (const Segment& arc : found.arcs) {
+    if (kept > 0 && found.arcs[kept - 1].end == arc.begin) {
+      const Segment both{found.arcs[kept - 1].begin, arc.end};
+      if (finder.is_arc({both})) {
+        found.arcs[kept - 1] = both;
+        continue;
+      }
+    }
+    found.arcs[kept++] = arc;
+  }
+  found.arcs.resize(kept);
 }
 
 }  // namespace quoin
