@@ -2,103 +2,133 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/evaluation/corner_quality.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include <Eigen/LU>
-
+#include "core/evaluation/corner_matching.hpp"
+#include "core/evaluation/scene.hpp"
 #include "core/geometry/angle.hpp"
-#include "core/simulation/random.hpp"
-#include "core/simulation/scanner.hpp"
-#include "core/simulation/world.hpp"
 
 namespace quoin {
 namespace {
 
-constexpr double nearest_stray = 0.2;          // [m]
-constexpr double largest_corner_error = 0.15;  // [m]
+constexpr double same_point = 1e-3;  // [m]
 
-/// One scan of the world from its first pose, with strays.
-void extract(Extraction& extraction, const World& world, const DisturbedScans& disturbed,
-             std::uint64_t seed, Random& random) {
-  ScannerSettings settings;
-  settings.points = disturbed.rays;
-  settings.noise = disturbed.noise;
-  SimulatedScanner scanner(world, settings, seed);
-  SimulatedScan scan;
-  scanner.scan(0.0, 0.0, scan);
-  for (float& range : scan.ranges) {
-    if (!(random.uniform() < disturbed.strays) || !std::isfinite(range)) continue;
-    range = static_cast<float>(random.uniform(nearest_stray, static_cast<double>(range)));
-  }
-  extraction.run(view(scan, settings), disturbed.noise, disturbed.noise);
-}
-
-struct CoverageSums {
-  std::size_t covered = 0;
-  double nees = 0.0;
-};
-
-void count(const std::vector<Corner>& corners, const std::vector<Eigen::Vector2d>& truth,
-           CornerQuality& quality, CoverageSums& sums) {
-  ++quality.scans;
-  quality.true_corners += truth.size();
-  std::vector<bool> found(truth.size());
-  for (const Corner& corner : corners) {
-    bool is_true = false;
-    for (std::size_t k = 0; k < truth.size(); ++k) {
-      const Eigen::Vector2d error = corner.estimate.position - truth[k];
-      if (error.norm() > largest_corner_error) continue;
-      is_true = true;
-      if (found[k]) continue;
-      found[k] = true;
-      ++quality.found_corners;
-      const double squared = error.dot(corner.estimate.covariance.inverse() * error);
-      sums.nees += squared;
-      sums.covered += squared <= chi_square_2_95 ? 1 : 0;
-    }
-    quality.false_corners += is_true ? 0 : 1;
-  }
+bool enough(const VisibleWall& wall, std::size_t far_ray, const Eigen::Vector2d& corner,
+            const SeenWalls& seen) {
+  const double range = wall.ranges[far_ray];
+  const double bearing = wall.bearings[far_ray];
+  const Eigen::Vector2d far(range * std::cos(bearing), range * std::sin(bearing));
+  return wall.bearings.size() >= seen.min_points && (far - corner).norm() >= seen.min_length;
 }
 
 }  // namespace
 
-CornerQuality judge_room_corners(Extraction& extraction, const DisturbedScans& disturbed) {
+CornerTruth corner_truth(const World& world, const Pose2& pose, std::size_t rays,
+                         const SeenWalls& seen) {
+  CornerTruth truth;
+  for (const Eigen::Vector2d& corner : world.corners()) {
+    truth.positions.push_back(pose.inverse_transform(corner));
+  }
+  truth.to_be_found.resize(truth.positions.size());
+  const Scene scene = observe(world, pose, rays, 1);
+  for (const VisibleCorner& corner : scene.corners) {
+    const VisibleWall& first = scene.walls[corner.first];
+    const VisibleWall& second = scene.walls[corner.second];
+    if (!enough(first, 0, corner.position, seen)) continue;
+    if (!enough(second, second.bearings.size() - 1, corner.position, seen)) continue;
+    const auto same = std::ranges::find_if(truth.positions, [&](const Eigen::Vector2d& position) {
+      return (position - corner.position).norm() <= same_point;
+    });
+    if (same == truth.positions.end()) continue;
+    truth.to_be_found[static_cast<std::size_t>(same - truth.positions.begin())] = true;
+  }
+  return truth;
+}
+
+void CornerTally::add(const std::vector<Corner>& found, const CornerTruth& truth) {
+  ++scans_;
+  corners_.resize(std::max(corners_.size(), first_corner_ + truth.positions.size()));
+  std::vector<CornerEstimate> estimates;
+  for (const Corner& corner : found) estimates.push_back(corner.estimate);
+  const std::vector<TruthMatch> matches = match_truth(estimates, truth.positions);
+  std::size_t covered = 0;
+  std::size_t recalled = 0;
+  for (const TruthMatch& match : matches) {
+    const double squared = match.mahalanobis_squared;
+    CornerCoverage& corner = corners_[first_corner_ + match.truth];
+    ++corner.observations;
+    recalled += truth.to_be_found[match.truth] ? 1 : 0;
+    if (squared <= chi_square_2_95) {
+      ++covered;
+      ++corner.covered;
+    }
+    if (squared <= four_sigma_squared) {
+      nees_.add(squared);
+    } else {
+      ++beyond_;
+      ++corner.beyond_four_sigma;
+    }
+  }
+  const auto expected = std::ranges::count(truth.to_be_found, true);
+  recall_.add(recalled, static_cast<std::size_t>(expected));
+  precision_.add(matches.size(), found.size());
+  coverage_.add(covered, matches.size());
+}
+
+CornerQuality CornerTally::quality() const {
   CornerQuality quality;
-  CoverageSums sums;
+  quality.scans = scans_;
+  quality.true_corners = recall_.trials();
+  quality.found_corners = precision_.trials();
+  quality.false_corners = precision_.trials() - precision_.hits();
+  quality.recall = recall_.interval();
+  quality.precision = precision_.interval();
+  quality.coverage = coverage_.interval();
+  quality.nees = nees_.mean();
+  if (coverage_.trials() > 0) {
+    quality.beyond_four_sigma =
+        static_cast<double>(beyond_) / static_cast<double>(coverage_.trials());
+  }
+  quality.corners = corners_;
+  return quality;
+}
+
+CornerQuality judge_room_corners(Extraction& extraction, const DisturbedScans& disturbed) {
+  CornerTally tally;
   Random random(disturbed.seed);
-  const std::vector<Eigen::Vector2d> corners{{0.0, 0.0}, {5.0, 0.0}, {5.0, 3.5}, {0.0, 3.5}};
   World world;
-  world.add_polyline(corners, true);
+  world.add_polyline({{0.0, 0.0}, {5.0, 0.0}, {5.0, 3.5}, {0.0, 3.5}}, true);
   for (std::size_t k = 0; k < disturbed.scans; ++k) {
     const Pose2 pose{random.uniform(0.4, 4.6), random.uniform(0.4, 3.1), random.uniform(-pi, pi)};
     world.path = {pose};
-    std::vector<Eigen::Vector2d> truth;
-    for (const Eigen::Vector2d& corner : corners) truth.push_back(pose.inverse_transform(corner));
-    extract(extraction, world, disturbed, disturbed.seed + k, random);
-    count(extraction.corners(), truth, quality, sums);
+    CornerTruth truth;
+    for (const Eigen::Vector2d& corner : world.corners()) {
+      truth.positions.push_back(pose.inverse_transform(corner));
+    }
+    truth.to_be_found.assign(truth.positions.size(), true);
+    DisturbedScanner scanner(world, disturbed, disturbed.seed + k);
+    static_cast<void>(scanner.scan());
+    extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
+    tally.add(extraction.corners(), truth);
   }
-  quality.recall = proportion(quality.found_corners, quality.true_corners);
-  quality.coverage = proportion(sums.covered, quality.found_corners);
-  if (quality.found_corners > 0) {
-    quality.mean_nees = sums.nees / static_cast<double>(quality.found_corners);
-  }
-  return quality;
+  return tally.quality();
 }
 
 CornerQuality judge_column(Extraction& extraction, double radius, double distance,
                            const DisturbedScans& disturbed) {
-  CornerQuality quality;
-  CoverageSums sums;
+  CornerTally tally;
   Random random(disturbed.seed);
   World world;
   world.pillars = {{{distance + radius, 0.0}, radius}};
   for (std::size_t k = 0; k < disturbed.scans; ++k) {
     world.path = {{0.0, 0.0, random.uniform(-pi, pi)}};
-    extract(extraction, world, disturbed, disturbed.seed + k, random);
-    count(extraction.corners(), {}, quality, sums);
+    DisturbedScanner scanner(world, disturbed, disturbed.seed + k);
+    static_cast<void>(scanner.scan());
+    extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
+    tally.add(extraction.corners(), {});
   }
-  return quality;
+  return tally.quality();
 }
 
 }  // namespace quoin

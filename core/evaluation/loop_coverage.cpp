@@ -3,96 +3,152 @@
 #include "core/evaluation/loop_coverage.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
 
+#include "core/evaluation/corner_matching.hpp"
+#include "core/evaluation/scene.hpp"
+#include "core/geometry/angle.hpp"
+
 namespace quoin {
 namespace {
 
-constexpr double four_sigma = 16.0;  // squared Mahalanobis distance
+constexpr double same_direction = 1e-6;  // [rad]
+constexpr double same_distance = 1e-3;   // [m]
 
-/// Squared Mahalanobis distance of the nearest true corner.
-double distance_to_truth(const CornerEstimate& corner, const std::vector<Eigen::Vector2d>& truth) {
-  const Eigen::Matrix2d information = corner.covariance.inverse();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& point : truth) {
-    const Eigen::Vector2d error = corner.position - point;
-    nearest = std::min(nearest, error.dot(information * error));
+/// The lines of the walls as seen from a pose; walls of one line have the same number.
+struct WallLines {
+  std::vector<Line> lines;
+  std::vector<std::size_t> line_of_wall;
+
+  WallLines(const World& world, const Pose2& pose) {
+    for (const Wall& wall : world.walls) {
+      const Line line = wall_line(wall, pose);
+      const auto same = std::ranges::find_if(lines, [&](const Line& other) {
+        return std::abs(normalized_angle(line.alpha - other.alpha)) <= same_direction &&
+               std::abs(line.r - other.r) <= same_distance;
+      });
+      line_of_wall.push_back(static_cast<std::size_t>(same - lines.begin()));
+      if (same == lines.end()) lines.push_back(line);
+    }
   }
-  return nearest;
-}
+};
 
-/// Counts of scans of which the fraction of covered corners is wanted. The corners of one scan
-/// share lines and are not independent, its counts are independent of those of the next.
-class ClusteredProportion {
+/// Which line each point of a scan is truly on.
+class TrueLines {
  public:
-  void add(std::size_t hits, std::size_t trials) {
-    const auto h = static_cast<double>(hits);
-    const auto t = static_cast<double>(trials);
-    hits_ += hits;
-    trials_ += trials;
-    hits_squared_ += h * h;
-    product_ += h * t;
-    trials_squared_ += t * t;
+  void assign(const SimulatedScan& scan, const WallLines& walls) {
+    by_bearing_.clear();
+    for (std::size_t i = 0; i < scan.walls.size(); ++i) {
+      const bool on_wall = scan.walls[i] != Hit::no_wall && std::isfinite(scan.ranges[i]);
+      by_bearing_.emplace_back(static_cast<double>(scan.bearings[i]),
+                               on_wall ? walls.line_of_wall[scan.walls[i]] : Hit::no_wall);
+    }
+    std::ranges::sort(by_bearing_);
+    counts_.assign(walls.lines.size(), 0);
   }
 
-  [[nodiscard]] Interval interval() const {
-    if (trials_ == 0) return {};
-    const auto count = static_cast<double>(trials_);
-    const double p = static_cast<double>(hits_) / count;
-    // Linearised variance of a ratio of sums over clusters.
-    const double variance =
-        (hits_squared_ - 2.0 * p * product_ + p * p * trials_squared_) / (count * count);
-    const double effective = variance > 0.0 ? std::min(count, p * (1.0 - p) / variance) : count;
-    return proportion(hits_, trials_, effective > 0.0 ? effective : count);
+  /// The line that more than half of the points are on, or Hit::no_wall.
+  [[nodiscard]] std::size_t of(const PointsView& points) {
+    std::ranges::fill(counts_, 0);
+    for (const double bearing : points.bearing) {
+      const auto at = std::ranges::lower_bound(by_bearing_, std::pair(bearing, std::size_t{0}));
+      if (at == by_bearing_.end() || at->first != bearing || at->second == Hit::no_wall) continue;
+      ++counts_[at->second];
+    }
+    const auto most = std::ranges::max_element(counts_);
+    if (most == counts_.end() || 2 * *most <= points.size()) return Hit::no_wall;
+    return static_cast<std::size_t>(most - counts_.begin());
   }
 
  private:
-  std::size_t hits_ = 0, trials_ = 0;
-  double hits_squared_ = 0.0, product_ = 0.0, trials_squared_ = 0.0;
+  std::vector<std::pair<double, std::size_t>> by_bearing_;
+  std::vector<std::size_t> counts_;
+};
+
+/// Squared Mahalanobis distance from the true line.
+double error_squared(const LineEstimate& found, const Line& truth) {
+  // Near the sensor the normal may turn over.
+  const bool turned = std::abs(normalized_angle(found.line.alpha - truth.alpha)) > 0.5 * pi;
+  const Line same = turned ? Line{truth.alpha + pi, -truth.r} : truth;
+  const Eigen::Vector2d error(normalized_angle(found.line.alpha - same.alpha),
+                              found.line.r - same.r);
+  return error.dot(found.covariance.inverse() * error);
+}
+
+class LineTally {
+ public:
+  void add(const Extraction& extraction, const WallLines& walls, TrueLines& truth) {
+    std::size_t covered = 0;
+    std::size_t true_lines = 0;
+    for (std::size_t k = 0; k < extraction.lines().size(); ++k) {
+      const LineSegment& line = extraction.lines()[k];
+      if ((line.end - line.start).norm() < judged_line_length) continue;
+      ++lines_;
+      const Segment& segment = extraction.fitted()[k];
+      const std::size_t of =
+          truth.of(extraction.points().view().subview(segment.begin, segment.end));
+      if (of == Hit::no_wall) continue;
+      ++true_lines;
+      const double squared = error_squared(line.estimate, walls.lines[of]);
+      covered += squared <= chi_square_2_95 ? 1 : 0;
+      beyond_ += squared <= four_sigma_squared ? 0 : 1;
+    }
+    coverage_.add(covered, true_lines);
+  }
+
+  [[nodiscard]] LineQuality quality() const {
+    LineQuality quality;
+    quality.lines = lines_;
+    quality.false_lines = lines_ - coverage_.trials();
+    quality.coverage = coverage_.interval();
+    if (coverage_.trials() > 0) {
+      quality.beyond_four_sigma =
+          static_cast<double>(beyond_) / static_cast<double>(coverage_.trials());
+    }
+    return quality;
+  }
+
+ private:
+  std::size_t lines_ = 0;
+  std::size_t beyond_ = 0;
+  ClusteredProportion coverage_;
 };
 
 }  // namespace
 
-LoopCoverage judge_loop(Extraction& extraction, const World& world, const SensorModel& noise,
-                        std::size_t scans, std::uint64_t seed) {
-  ScannerSettings settings;
-  settings.points = rays_per_revolution(world.name);
-  settings.noise = noise;
-  SimulatedScanner scanner(world, settings, seed);
-  std::vector<Eigen::Vector2d> truth = world.corners();
-  for (Eigen::Vector2d& point : truth) point = world.pose_at(0.0).inverse_transform(point);
-
+LoopCoverage judge_loop(Extraction& extraction, std::span<const World> worlds,
+                        const DisturbedScans& disturbed) {
   LoopCoverage result;
-  SimulatedScan scan;
-  ClusteredProportion coverage;
-  std::size_t segments = 0, corners = 0;
-  MeanSums nees;  // of the corners within four sigma
-  for (; result.scans < scans; ++result.scans) {
-    scanner.scan(0.0, 0.0, scan);
-    extraction.run(view(scan, settings), noise, noise);
-    segments += extraction.segments().size();
-    corners += extraction.corners().size();
-    extraction.count_failures(result.failures);
-    std::size_t covered = 0;
-    for (const Corner& corner : extraction.corners()) {
-      const double squared = distance_to_truth(corner.estimate, truth);
-      covered += squared <= chi_square_2_95 ? 1 : 0;
-      if (squared <= four_sigma) nees.add(squared);
+  CornerTally corners;
+  LineTally lines;
+  TrueLines true_lines;
+  std::size_t segments = 0;
+  for (std::size_t w = 0; w < worlds.size(); ++w) {
+    const Pose2 pose = worlds[w].pose_at(0.0);
+    const CornerTruth truth = corner_truth(worlds[w], pose, disturbed.rays);
+    const WallLines walls(worlds[w], pose);
+    corners.begin_world();
+    DisturbedScanner scanner(worlds[w], disturbed, disturbed.seed + w);
+    for (std::size_t k = 0; k < disturbed.scans; ++k) {
+      true_lines.assign(scanner.scan(), walls);
+      extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
+      ++result.scans;
+      segments += extraction.segments().size();
+      extraction.count_failures(result.failures);
+      corners.add(extraction.corners(), truth);
+      lines.add(extraction, walls, true_lines);
     }
-    coverage.add(covered, extraction.corners().size());
   }
-  if (scans == 0) return result;
-  result.segments_per_scan = static_cast<double>(segments) / static_cast<double>(scans);
-  result.corners_per_scan = static_cast<double>(corners) / static_cast<double>(scans);
-  result.coverage95 = coverage.interval();
-  result.nees = nees.mean();
-  if (corners > 0) {
-    result.beyond_four_sigma =
-        static_cast<double>(corners - nees.count) / static_cast<double>(corners);
-  }
+  if (result.scans == 0) return result;
+  result.corners = corners.quality();
+  result.lines = lines.quality();
+  const auto scans = static_cast<double>(result.scans);
+  result.segments_per_scan = static_cast<double>(segments) / scans;
+  result.corners_per_scan = static_cast<double>(result.corners.found_corners) / scans;
   return result;
 }
 

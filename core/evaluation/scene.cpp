@@ -9,11 +9,6 @@
 #include "core/simulation/scanner.hpp"
 
 namespace quoin {
-namespace {
-
-constexpr double same_point = 1e-9;  // [m]
-
-}  // namespace
 
 Line wall_line(const Wall& wall, const Pose2& pose) {
   const Eigen::Vector2d start = pose.inverse_transform(wall.start);
@@ -53,25 +48,20 @@ Scene observe(const World& world, const Pose2& pose, std::size_t rays, std::size
     scene.walls.push_back(std::move(wall));
   }
 
-  const std::vector<Eigen::Vector2d> corners = world.corners();
-  const auto ends_at = [](const Wall& wall, const Eigen::Vector2d& point) {
-    return (wall.start - point).norm() < same_point || (wall.end - point).norm() < same_point;
-  };
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const std::size_t next = (i + 1) % scene.walls.size();
     // Between walls that meet in sight there is no other ray; a spacing of 1.5 steps decides.
     const double gap =
         normalized_angle(scene.walls[next].bearings.front() - scene.walls[i].bearings.back());
     if (next == i || !(std::abs(gap) < 1.5 * step)) continue;
-    for (const Eigen::Vector2d& corner : corners) {
-      if (!ends_at(world.walls[scene.walls[i].wall], corner)) continue;
-      if (!ends_at(world.walls[scene.walls[next].wall], corner)) continue;
-      // The far side of a column is a corner of the same two walls, but not where they are seen.
-      const Eigen::Vector2d position = pose.inverse_transform(corner);
-      const double bearing = std::atan2(position.y(), position.x());
-      const double off = normalized_angle(bearing - scene.walls[i].bearings.back());
-      if (std::abs(off) < 1.5 * step) scene.corners.push_back({position, i, next});
-    }
+    const auto corner =
+        meeting_point(world.walls[scene.walls[i].wall], world.walls[scene.walls[next].wall]);
+    if (!corner) continue;
+    // Two walls that meet behind something else do not meet where they are seen.
+    const Eigen::Vector2d position = pose.inverse_transform(*corner);
+    const double bearing = std::atan2(position.y(), position.x());
+    const double off = normalized_angle(bearing - scene.walls[i].bearings.back());
+    if (std::abs(off) < 1.5 * step) scene.corners.push_back({position, i, next});
   }
   return scene;
 }

@@ -21,6 +21,10 @@ struct Wall {
   Eigen::Vector2d end;
 };
 
+/// Where two walls meet [m]: at a common end, where one ends on the other, or where they cross, all
+/// within 1 mm. Nothing for walls that are apart or parallel.
+[[nodiscard]] std::optional<Eigen::Vector2d> meeting_point(const Wall& first, const Wall& second);
+
 /// A round obstacle such as a table leg.
 struct Pillar {
   Eigen::Vector2d center;  ///< [m]
@@ -39,7 +43,7 @@ struct World {
   /// Adds the walls of a polyline; `closed` joins the last point to the first.
   void add_polyline(const std::vector<Eigen::Vector2d>& points, bool closed);
 
-  /// Points where exactly two walls end that are not parallel: the true corners [m].
+  /// Points where walls meet that are not parallel, each once: the true corners [m].
   [[nodiscard]] std::vector<Eigen::Vector2d> corners() const;
 
   /// Pose after travelling `distance` [m] along the path there and back again; headings are

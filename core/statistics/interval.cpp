@@ -33,4 +33,25 @@ Interval mean(double sum, double sum_of_squares, std::size_t count) {
   return {value, value - half, value + half};
 }
 
+void ClusteredProportion::add(std::size_t hits, std::size_t trials) {
+  const auto h = static_cast<double>(hits);
+  const auto t = static_cast<double>(trials);
+  hits_ += hits;
+  trials_ += trials;
+  hits_squared_ += h * h;
+  product_ += h * t;
+  trials_squared_ += t * t;
+}
+
+Interval ClusteredProportion::interval() const {
+  if (trials_ == 0) return {};
+  const auto count = static_cast<double>(trials_);
+  const double p = static_cast<double>(hits_) / count;
+  // Linearised variance of a ratio of sums over clusters.
+  const double variance =
+      (hits_squared_ - 2.0 * p * product_ + p * p * trials_squared_) / (count * count);
+  const double effective = variance > 0.0 ? std::min(count, p * (1.0 - p) / variance) : count;
+  return proportion(hits_, trials_, effective > 0.0 ? effective : count);
+}
+
 }  // namespace quoin

@@ -23,6 +23,20 @@ struct Interval {
 /// Mean of independent values from their sums, interval by the normal distribution.
 [[nodiscard]] Interval mean(double sum, double sum_of_squares, std::size_t count);
 
+/// Counts of clusters, such as scans, of which the proportion over all is wanted: trials of one
+/// cluster may depend on each other, those of different clusters do not.
+class ClusteredProportion {
+ public:
+  void add(std::size_t hits, std::size_t trials);
+  [[nodiscard]] std::size_t hits() const { return hits_; }
+  [[nodiscard]] std::size_t trials() const { return trials_; }
+  [[nodiscard]] Interval interval() const;
+
+ private:
+  std::size_t hits_ = 0, trials_ = 0;
+  double hits_squared_ = 0.0, product_ = 0.0, trials_squared_ = 0.0;
+};
+
 /// Values of which the mean and its uncertainty are wanted.
 struct MeanSums {
   double sum = 0.0;

@@ -45,6 +45,22 @@ std::string failures_text(const FailureCounts& failures) {
   return text.empty() ? "-" : text;
 }
 
+void add_loop_coverage(nlohmann::ordered_json& object, const LoopCoverage& result) {
+  const CornerQuality& corners = result.corners;
+  object["true_corners"] = corners.true_corners;
+  object["found_corners"] = corners.found_corners;
+  object["false_corners"] = corners.false_corners;
+  add_interval(object, "recall", corners.recall);
+  add_interval(object, "precision", corners.precision);
+  add_interval(object, "coverage95", corners.coverage);
+  add_interval(object, "nees", corners.nees);
+  object["beyond_four_sigma"] = corners.beyond_four_sigma;
+  object["lines"] = result.lines.lines;
+  object["false_lines"] = result.lines.false_lines;
+  add_interval(object, "line_coverage95", result.lines.coverage);
+  object["lines_beyond_four_sigma"] = result.lines.beyond_four_sigma;
+}
+
 void add_published(nlohmann::ordered_json& report, const PublishedComparison& comparison) {
   nlohmann::ordered_json entry{{"paper", comparison.paper},         {"place", comparison.place},
                                {"quantity", comparison.quantity},   {"unit", comparison.unit},

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/evaluation/consistency.hpp"
+#include "core/evaluation/loop_coverage.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/points.hpp"
 #include "core/statistics/interval.hpp"
@@ -28,6 +29,17 @@ void add_interval(nlohmann::ordered_json& object, const std::string& name,
 [[nodiscard]] nlohmann::ordered_json failures_json(const FailureCounts& failures);
 /// The same for the eye, "-" for none.
 [[nodiscard]] std::string failures_text(const FailureCounts& failures);
+
+/// What the figures of a LoopCoverage mean.
+inline constexpr const char* loop_coverage_text =
+    "Each found corner is held against the nearest true one, partitions that end on a wall and "
+    "walls that cross included; one near none is false. Recall is of the true corners whose two "
+    "walls are seen with 0.3 m and 8 points up to the corner, precision is the share of true ones "
+    "among the found ones, coverage and NEES are of those, NEES of the ones within four sigma. "
+    "Lines are judged from 0.3 m on.";
+
+/// Recall, precision and coverage of corners, and coverage of lines.
+void add_loop_coverage(nlohmann::ordered_json& object, const LoopCoverage& result);
 
 /// A figure that a paper prints beside what was measured here.
 struct PublishedComparison {

@@ -51,8 +51,12 @@ class LoopSection : public Section {
                                               CornerFinders::make<CornerFinder>(
                                                   CornerFinders::descriptions().front().name, {}));
                         // All methods are given the same scans.
-                        entry.result = judge_loop(extraction, world, noise_, scans_,
-                                                  derived_seed(seed_, "loop/" + world.name));
+                        entry.result =
+                            judge_loop(extraction, {&world, 1},
+                                       {.rays = rays_per_revolution(world.name),
+                                        .noise = noise_,
+                                        .scans = scans_,
+                                        .seed = derived_seed(seed_, "loop/" + world.name)});
                       }});
     }
     return jobs;
@@ -71,20 +75,16 @@ class LoopSection : public Section {
                                     {"scans", result.scans},
                                     {"segments_per_scan", result.segments_per_scan},
                                     {"corners_per_scan", result.corners_per_scan}};
-      add_interval(object, "coverage95", result.coverage95);
-      add_interval(object, "nees", result.nees);
-      object["beyond_four_sigma"] = result.beyond_four_sigma;
+      add_loop_coverage(object, result);
       object["failures"] = failures_json(result.failures);
       array.push_back(std::move(object));
     }
   }
 
   void write_html(HtmlPage& page) const override {
-    page.paragraph("Simulated scans with noise of " + noise_text(noise_) + ", " +
-                   std::to_string(scans_) +
-                   " a world, segmented, fitted and intersected as the services do it; each corner "
-                   "is held against the nearest true one. NEES is over the corners within four "
-                   "sigma.");
+    page.paragraph(
+        "Simulated scans with noise of " + noise_text(noise_) + ", " + std::to_string(scans_) +
+        " a world, segmented, fitted and intersected as the services do it. " + loop_coverage_text);
     for (const std::string& segmenter : segmenters_) write_segmenter(page, segmenter);
   }
 
@@ -93,7 +93,7 @@ class LoopSection : public Section {
     for (const World& world : worlds_) rows[0].push_back(world.name);
     for (const Entry& entry : entries_) {
       if (entry.world == 0) rows.push_back({entry.fitter, entry.segmenter});
-      rows.back().push_back(fixed(100.0 * entry.result.coverage95.value, 1));
+      rows.back().push_back(fixed(100.0 * entry.result.corners.coverage.value, 1));
     }
     return rows;
   }
@@ -103,25 +103,28 @@ class LoopSection : public Section {
     page.heading(3, "Segmented by " + segmenter);
     IntervalChart chart = coverage_chart("segmented by " + segmenter);
     for (const World& world : worlds_) chart.series.push_back({world.name, {}});
-    HtmlTable table{{},
-                    {"fitter", "environment", "segments/scan", "corners/scan", "coverage [%]",
-                     "NEES", "beyond 4 sigma [%]", "failures"},
-                    {},
-                    2};
+    HtmlTable table{
+        {},
+        {"fitter", "environment", "segments/scan", "corners/scan", "recall [%]", "precision [%]",
+         "coverage [%]", "NEES", "beyond 4 sigma [%]", "lines' coverage [%]", "failures"},
+        {},
+        2};
     for (const Entry& entry : entries_) {
       if (entry.segmenter != segmenter) continue;
       const LoopCoverage& result = entry.result;
       table.rows.push_back(
           {entry.fitter, worlds_[entry.world].name, fixed(result.segments_per_scan, 1),
-           fixed(result.corners_per_scan, 1), interval_text(result.coverage95, 1, 100.0),
-           interval_text(result.nees, 2), fixed(100.0 * result.beyond_four_sigma, 2),
-           failures_text(result.failures)});
+           fixed(result.corners_per_scan, 1), fixed(100.0 * result.corners.recall.value, 1),
+           fixed(100.0 * result.corners.precision.value, 1),
+           interval_text(result.corners.coverage, 1, 100.0), interval_text(result.corners.nees, 2),
+           fixed(100.0 * result.corners.beyond_four_sigma, 2),
+           interval_text(result.lines.coverage, 1, 100.0), failures_text(result.failures)});
       if (chart.categories.empty() || chart.categories.back() != entry.fitter) {
         chart.categories.push_back(entry.fitter);
       }
       auto& values = chart.series[entry.world].values;
       values.resize(chart.categories.size());
-      if (result.corners_per_scan > 0.0) values.back() = plotted(result.coverage95, 100.0);
+      if (result.corners_per_scan > 0.0) values.back() = plotted(result.corners.coverage, 100.0);
     }
     page.figure(plot_svg(chart),
                 "Points with 95 % confidence intervals; corners of one scan are not taken for "

@@ -63,7 +63,7 @@ class RobustnessSection : public Section {
              Extraction extraction = extraction_of(room.segmenter, stop);
              room.result =
                  judge_room_corners(extraction, {room.rays, rplidar_noise(0.010), room.strays,
-                                                 scans_, derived_seed(seed_, "room")});
+                                                 scans_, derived_seed(seed_, "room"), 0.0});
            }});
     }
     for (Columns& columns : columns_) {
@@ -83,7 +83,8 @@ class RobustnessSection : public Section {
           {"strays", room.strays},
           {"true_corners", room.result.true_corners},
           {"false_corners_per_100_scans", room.result.false_per_100_scans()},
-          {"mean_nees", room.result.mean_nees}};
+          {"nees", room.result.nees.value}};
+      add_interval(object, "precision", room.result.precision);
       add_interval(object, "recall", room.result.recall);
       add_interval(object, "coverage", room.result.coverage);
       rooms.push_back(std::move(object));
@@ -112,7 +113,7 @@ class RobustnessSection : public Section {
       table.rows.push_back(
           {room.segmenter, fixed(100.0 * room.strays, 0), std::to_string(room.rays),
            interval_text(room.result.recall, 1, 100.0), fixed(room.result.false_per_100_scans(), 1),
-           interval_text(room.result.coverage, 1, 100.0), fixed(room.result.mean_nees, 2)});
+           interval_text(room.result.coverage, 1, 100.0), fixed(room.result.nees.value, 2)});
     }
     page.table(table);
     page.paragraph(
@@ -166,7 +167,7 @@ class RobustnessSection : public Section {
       const CornerQuality quality =
           judge_column(extraction, columns.radius, distance,
                        {920, rplidar_noise(columns.range_stddev), 0.0, scans_,
-                        derived_seed(seed_, "columns/" + fixed(distance, 1))});
+                        derived_seed(seed_, "columns/" + fixed(distance, 1)), 0.0});
       columns.scans += quality.scans;
       columns.false_corners += quality.false_corners;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/evaluation/corner_matching.hpp"
 #include "core/evaluation/scene.hpp"
 #include "core/extraction/extraction.hpp"
 #include "core/statistics/order_statistics.hpp"
@@ -11,20 +12,14 @@
 namespace quoin {
 namespace {
 
-constexpr double same_corner = 0.15;  // [m] half of what corners of the two worlds are apart
-
-/// For each true corner the nearest one that was found, if it is near.
+/// What was found of each true corner.
 std::vector<std::optional<CornerEstimate>> assign(const std::vector<Corner>& found,
                                                   const std::vector<Eigen::Vector2d>& truth) {
+  std::vector<CornerEstimate> estimates;
+  for (const Corner& corner : found) estimates.push_back(corner.estimate);
   std::vector<std::optional<CornerEstimate>> assigned(truth.size());
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    double nearest = same_corner;
-    for (const Corner& corner : found) {
-      const double distance = (corner.estimate.position - truth[k]).norm();
-      if (distance >= nearest) continue;
-      nearest = distance;
-      assigned[k] = corner.estimate;
-    }
+  for (const TruthMatch& match : match_truth(estimates, truth)) {
+    assigned[match.truth] = estimates[match.found];
   }
   return assigned;
 }

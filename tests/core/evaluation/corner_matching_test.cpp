@@ -80,5 +80,27 @@ TEST(MatchCorners, LooksAtSoManyOnly) {
   EXPECT_THAT(match_corners({corner(0, 0)}, far, {}), IsEmpty());
 }
 
+TEST(MatchTruth, TakesWhatIsNearOrInsideItsOwnEllipse) {
+  const std::vector<Eigen::Vector2d> truth{{0, 0}};
+  EXPECT_THAT(match_truth({corner(0.149, 0, 0.001)}, truth), SizeIs(1));
+  EXPECT_THAT(match_truth({corner(0.151, 0, 0.001)}, truth), IsEmpty());
+  EXPECT_THAT(match_truth({corner(0.39, 0, 0.1)}, truth), SizeIs(1));
+  EXPECT_THAT(match_truth({corner(0.41, 0, 0.1)}, truth), IsEmpty());
+  EXPECT_THAT(match_truth({corner(1.01, 0, 10.0)}, truth), IsEmpty());
+}
+
+TEST(MatchTruth, TakesEachOnceAndTellsTheDistance) {
+  const auto matches =
+      match_truth({corner(0.03, 0, 0.01), corner(0.02, 0, 0.01)}, {{0, 0}, {9, 9}});
+  ASSERT_THAT(matches, SizeIs(1));
+  EXPECT_EQ(matches[0].found, 1U);
+  EXPECT_EQ(matches[0].truth, 0U);
+  EXPECT_NEAR(matches[0].mahalanobis_squared, 4.0, 1e-9);
+  // Without a covariance the position is judged all the same.
+  const auto bare = match_truth({corner(0.02, 0, 0.0)}, {{0, 0}});
+  ASSERT_THAT(bare, SizeIs(1));
+  EXPECT_TRUE(std::isinf(bare[0].mahalanobis_squared));
+}
+
 }  // namespace
 }  // namespace quoin

@@ -20,6 +20,30 @@ TEST(World, KnowsItsCorners) {
   EXPECT_EQ(corners[0], Eigen::Vector2d(3, 0));
 }
 
+TEST(World, KnowsWherePartitionsEndOnWallsAndWhereWallsCross) {
+  World world;
+  world.add_polyline({{0, 0}, {4, 0}}, false);
+  world.add_polyline({{1, 0}, {1, 2}}, false);       // ends on the wall
+  world.add_polyline({{2, 0.0004}, {2, 2}}, false);  // ends on it as written to 1 mm
+  world.add_polyline({{3, 0.01}, {3, 2}}, false);    // ends before it
+  world.add_polyline({{0, 1}, {1.5, 1}}, false);     // crosses the first partition
+  world.add_polyline({{4, 0}, {4, 1}}, false);       // three walls end at (4, 0)
+  world.add_polyline({{4, 0}, {5, -1}}, false);
+  EXPECT_THAT(world.corners(),
+              testing::UnorderedElementsAre(Eigen::Vector2d(1, 0), Eigen::Vector2d(2, 0),
+                                            Eigen::Vector2d(1, 1), Eigen::Vector2d(4, 0)));
+}
+
+TEST(MeetingPoint, NeedsBothWalls) {
+  const Wall wall{{0, 0}, {2, 0}};
+  EXPECT_EQ(meeting_point(wall, {{1, -1}, {1, 1}}), Eigen::Vector2d(1, 0));
+  EXPECT_EQ(meeting_point(wall, {{2, 0}, {3, 4}}), Eigen::Vector2d(2, 0));
+  EXPECT_FALSE(meeting_point(wall, {{3, -1}, {3, 1}}));
+  EXPECT_FALSE(meeting_point(wall, {{1, 1}, {1, 2}}));
+  EXPECT_FALSE(meeting_point(wall, {{2, 0}, {3, 0}}));  // one goes on as the other
+  EXPECT_FALSE(meeting_point(wall, {{1, 0}, {1, 0}}));  // no length
+}
+
 TEST(World, TravelsThereAndBack) {
   World world;
   EXPECT_EQ(world.pose_at(1.0).x, 0.0);

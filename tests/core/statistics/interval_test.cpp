@@ -26,6 +26,23 @@ TEST(Proportion, WidensWhenTrialsAreCorrelated) {
   EXPECT_NEAR((correlated.high - correlated.low) / (independent.high - independent.low), 2.0, 0.1);
 }
 
+TEST(ClusteredProportion, KnowsThatTrialsOfOneClusterDependOnEachOther) {
+  ClusteredProportion independent;
+  ClusteredProportion together;
+  for (int k = 0; k < 400; ++k) {
+    independent.add(k % 4 == 0 ? 0 : 1, 1);
+    if (k < 100) together.add(k % 4 == 0 ? 0 : 4, 4);
+  }
+  EXPECT_EQ(independent.trials(), together.trials());
+  EXPECT_DOUBLE_EQ(independent.interval().value, 0.75);
+  EXPECT_DOUBLE_EQ(together.interval().value, 0.75);
+  const auto width = [](const Interval& interval) { return interval.high - interval.low; };
+  EXPECT_NEAR(width(independent.interval()), width(proportion(300, 400)), 1e-12);
+  // Four alike are worth one.
+  EXPECT_NEAR(width(together.interval()), width(proportion(75, 100)), 1e-12);
+  EXPECT_DOUBLE_EQ(ClusteredProportion{}.interval().high, 0.0);
+}
+
 TEST(Mean, HasTheStandardErrorOfTheMean) {
   // 1, 2, 3, 4: variance 5/3, standard error 0.6455.
   const Interval interval = mean(10.0, 30.0, 4);

@@ -94,7 +94,7 @@ TEST(Evaluation, ConsistencyIsThatOfADirectComputation) {
   const Consistency direct = judge_consistency(
       make_fitter("utls", "propagated"), observe(world, world.pose_at(0.0), 935), noise, 40,
       derived_seed(1, "consistency/environment_a/" + noise_text(noise)));
-  EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
+  EXPECT_EQ(entry["nees"].get<double>(), direct.corners.nees.value);
   EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
   EXPECT_EQ(entry["coverage95_interval"][0].get<double>(), direct.coverage95.low);
   EXPECT_EQ(entry["coverage95_interval"][1].get<double>(), direct.coverage95.high);
@@ -174,11 +174,15 @@ TEST(Evaluation, LoopIsThatOfADirectComputation) {
   EXPECT_EQ(entry["environment"], "square_room");
   Extraction extraction(make_segmenter("iepf"), make_fitter("wctls", "propagated"),
                         CornerFinders::make<CornerFinder>("adjacent", {}));
-  const LoopCoverage direct = judge_loop(extraction, built_in_world("square_room").value(),
-                                         SensorModel{}, 3, derived_seed(1, "loop/square_room"));
-  EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
+  const World world = built_in_world("square_room").value();
+  const LoopCoverage direct = judge_loop(extraction, {&world, 1},
+                                         {.scans = 3, .seed = derived_seed(1, "loop/square_room")});
+  EXPECT_EQ(entry["coverage95"].get<double>(), direct.corners.coverage.value);
+  EXPECT_EQ(entry["recall"].get<double>(), direct.corners.recall.value);
+  EXPECT_EQ(entry["precision"].get<double>(), direct.corners.precision.value);
+  EXPECT_EQ(entry["line_coverage95"].get<double>(), direct.lines.coverage.value);
   EXPECT_EQ(entry["corners_per_scan"].get<double>(), direct.corners_per_scan);
-  EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
+  EXPECT_EQ(entry["nees"].get<double>(), direct.corners.nees.value);
 }
 
 TEST(Evaluation, PublishedFiguresStandBesideOurs) {
