@@ -138,6 +138,23 @@ Command add_evaluate(CLI::App& app) {
       ->delimiter(',');
   line->add_option("--scans", evaluation.scans,
                    "Scan files (CARMEN, CSV) or folders of them to extract corners from");
+  SensorModel& noise = evaluation.scan_noise;
+  line->add_option("--range-stddev", noise.range_stddev,
+                   "Of the sensor that recorded the scan files: noise of each range [m]")
+      ->check(more_than_zero())
+      ->capture_default_str();
+  line->add_option("--range-stddev-per-metre", noise.range_stddev_per_metre,
+                   "The same: what that noise grows by with the range [m/m]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  line->add_option("--bearing-stddev", noise.bearing_stddev,
+                   "The same: noise of each bearing [rad]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  line->add_option("--flatness-stddev", noise.flatness_stddev,
+                   "The same: how far walls are off a line [m]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   line->add_option("--only", evaluation.only, "Sections to compute: " + joined(section_names()))
       ->delimiter(',');
   line->add_option("--trials", evaluation.trials, "Monte Carlo trials of each fitter")

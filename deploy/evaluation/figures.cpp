@@ -88,8 +88,15 @@ IntervalChart coverage_chart(const std::string& where) {
 }
 
 std::string noise_text(const SensorModel& noise) {
-  return number(noise.range_stddev * 1e3, 1) + " mm, " + number(noise.bearing_stddev * degrees, 3) +
-         " deg";
+  std::string text = number(noise.range_stddev * 1e3, 1) + " mm";
+  if (noise.range_stddev_per_metre > 0.0) {
+    text += " and " + number(noise.range_stddev_per_metre * 1e3, 1) + " mm/m";
+  }
+  text += ", " + number(noise.bearing_stddev * degrees, 3) + " deg";
+  if (noise.flatness_stddev > 0.0) {
+    text += ", walls flat to " + number(noise.flatness_stddev * 1e3, 1) + " mm";
+  }
+  return text;
 }
 
 SensorModel rplidar_noise(double range_stddev) {

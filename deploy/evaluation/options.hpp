@@ -11,6 +11,7 @@
 
 #include "core/fitting/fit.hpp"
 #include "core/segmentation/segment.hpp"
+#include "core/sensor/points.hpp"
 #include "core/simulation/world.hpp"
 #include "sensor_bridge/recordings/recorded_scan.hpp"
 
@@ -28,6 +29,7 @@ struct EvaluationOptions {
   std::vector<std::string> fitters;
   std::vector<std::string> worlds;  ///< names of built-in worlds or paths of world files
   std::vector<std::string> scans;   ///< paths of scan files or folders of them
+  SensorModel scan_noise;           ///< of the sensor that recorded `scans`
   std::vector<std::string> only;    ///< names of sections
   std::size_t trials = 2000;
   std::size_t scans_per_world = 200;

@@ -349,6 +349,31 @@ TEST(Evaluation, ScanFilesAreExtracted) {
   EXPECT_GT(entry["median_sigma"].get<double>(), 0.0005);
   EXPECT_LT(entry["median_sigma"].get<double>(), 0.01);
   EXPECT_TRUE(entry["scans_per_second"].is_null());
+  const json& consistency = entry["consistency"];
+  EXPECT_EQ(consistency["lines"], 4);
+  EXPECT_NEAR(consistency["reduced_chi_square"].get<double>(), 1.0, 0.3);
+  EXPECT_EQ(consistency["odd_even"]["lines"], 4);
+  EXPECT_EQ(consistency["halves"]["lines"], 4);
+  EXPECT_GT(consistency["halves"]["mean"].get<double>(), 0.0);
+  // One scan is compared with none.
+  EXPECT_EQ(consistency["scans_at_rest"], 0);
+  EXPECT_EQ(consistency["at_rest"]["lines"], 0);
+  EXPECT_TRUE(consistency["at_rest"]["inside95"].is_null());
+}
+
+TEST(Evaluation, ScanFilesAreJudgedByTheGivenNoise) {
+  const TemporaryFolder folder;
+  EvaluationOptions options = quick("scans");
+  options.scans = {folder.write("room.csv", csv_scan()).string()};
+  const json plain = report_of(options);
+  options.scan_noise.range_stddev *= 2.0;
+  options.scan_noise.bearing_stddev *= 2.0;
+  const json wide = report_of(options);
+  EXPECT_EQ(wide["options"]["scan_noise"]["range_stddev"], 0.020);
+  EXPECT_EQ(wide["scan_files"][0]["range_stddev"], 0.020);
+  EXPECT_NEAR(wide["scan_files"][0]["consistency"]["reduced_chi_square"].get<double>(),
+              0.25 * plain["scan_files"][0]["consistency"]["reduced_chi_square"].get<double>(),
+              0.01);
 }
 
 TEST(Evaluation, IsTheSameForEveryNumberOfThreadsAndDiffersBySeed) {
@@ -383,9 +408,9 @@ TEST(Evaluation, HtmlHasEveryPlotAndNeedsNoNetwork) {
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(html, Not(HasSubstr("@import")));
   // WCTLS paper: two pictures and a box plot in each environment; consistency: two charts in each
-  // of four settings; the loop: one; segmenters: four; one scan file; PCA paper: one for each
-  // table; CWLF paper: two environments.
-  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 1U + 3U + 2U);
+  // of four settings; the loop: one; segmenters: four; one scan file with its quantiles; PCA paper:
+  // one for each table; CWLF paper: two environments.
+  EXPECT_EQ(count(html, "<svg"), 2U * 3U + 4U * 2U + 1U + 4U + 2U + 3U + 2U);
   EXPECT_EQ(count(html, "<svg"), count(html, "</svg>"));
   for (const SectionKind& kind : section_kinds()) EXPECT_THAT(html, HasSubstr(kind.title));
   for (const char* title :
