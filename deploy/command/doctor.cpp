@@ -73,7 +73,7 @@ std::vector<HeardProcess> listen(const Deployment& deployment, bool all_namespac
     if (ended || now - heard.last > std::chrono::milliseconds(1500)) continue;
     processes.push_back({key.first + "/" + status.service(), status.host(), status.pid(),
                          status.incarnation(), status.state() == msg::STATE_ACTIVE, heard.fresh,
-                         heard.delay, status.incompatible_qos()});
+                         heard.delay, status.incompatible_qos(), line_scatter_of(status)});
   }
   return processes;
 }
@@ -84,6 +84,7 @@ Checks check_services(const Deployment& deployment, bool all_namespaces, double 
     Checks checks = check_clocks(processes, runtime::host_name());
     append(checks, check_doubles(processes));
     append(checks, check_qos(processes));
+    append(checks, check_line_scatter(processes));
     if (processes.empty()) checks.push_back({"deployments", Verdict::good, "no service runs", ""});
     return checks;
   } catch (const std::exception& error) {

@@ -98,6 +98,11 @@ void print(const std::vector<Row>& rows) {
     for (const msg::Diagnostic& diagnostic : row.status->diagnostics()) {
       std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
     }
+    const auto scatter = line_scatter_of(*row.status);
+    const std::string complaint_of_it = scatter ? complaint(*scatter) : "";
+    if (!complaint_of_it.empty()) {
+      std::cout << name << ": " << complaint_of_it << "; " << scatter_advice << '\n';
+    }
   }
 }
 
@@ -161,6 +166,17 @@ void print_json(const std::vector<Row>& rows) {
         diagnostics[diagnostic.name()] = diagnostic.value();
       }
       object["diagnostics"] = diagnostics;
+      if (const auto scatter = line_scatter_of(status)) {
+        const Interval& reduced = scatter->reduced_chi_square;
+        const Interval& inside = scatter->split_inside95;
+        object["line_scatter"] = {{"lines", scatter->lines},
+                                  {"reduced_chi_square", reduced.value},
+                                  {"reduced_chi_square_interval", {reduced.low, reduced.high}},
+                                  {"odd_even_lines", scatter->split_lines},
+                                  {"odd_even_inside95", inside.value},
+                                  {"odd_even_inside95_interval", {inside.low, inside.high}},
+                                  {"complaint", complaint(*scatter)}};
+      }
     }
     services[row.figures.name] = object;
   }

@@ -85,4 +85,16 @@ Checks check_qos(const std::vector<HeardProcess>& processes) {
   return checks;
 }
 
+Checks check_line_scatter(const std::vector<HeardProcess>& processes) {
+  Checks checks;
+  for (const HeardProcess& process : processes) {
+    if (!process.line_scatter) continue;
+    const std::string text = complaint(*process.line_scatter);
+    if (text.empty()) continue;
+    checks.push_back({"sensor model", Verdict::doubtful, process.service + ": " + text,
+                      std::string(scatter_advice)});
+  }
+  return checks;
+}
+
 }  // namespace quoin::deploy

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/fitting/line_scatter.hpp"
 #include "deploy/diagnostics/check.hpp"
 
 namespace quoin::deploy {
@@ -23,6 +25,7 @@ struct HeardProcess {
   /// host's: the smallest.
   std::int64_t delay = 0;
   std::vector<std::string> incompatible_qos;
+  std::optional<LineScatter> line_scatter = std::nullopt;  ///< of one that fits lines
 };
 
 /// Whether the clocks of other hosts agree with that of `own_host`: latencies and accounting over
@@ -36,5 +39,9 @@ struct HeardProcess {
 
 /// What readers and writers of the services do not agree on.
 [[nodiscard]] Checks check_qos(const std::vector<HeardProcess>& processes);
+
+/// Whether the lines of the last minute scatter as the sensor model says, which their covariances
+/// rest on.
+[[nodiscard]] Checks check_line_scatter(const std::vector<HeardProcess>& processes);
 
 }  // namespace quoin::deploy

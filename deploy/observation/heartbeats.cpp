@@ -40,6 +40,13 @@ ServiceReport report_of(const msg::ServiceStatus& status) {
   return report;
 }
 
+std::optional<LineScatter> line_scatter_of(const msg::ServiceStatus& status) {
+  for (const msg::Diagnostic& diagnostic : status.diagnostics()) {
+    if (diagnostic.name() == line_scatter_diagnostic) return parse_line_scatter(diagnostic.value());
+  }
+  return std::nullopt;
+}
+
 HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::string& name,
                                      bool all_namespaces)
     : all_namespaces_(all_namespaces),

@@ -8,9 +8,11 @@
 #include <idl/Status.h>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "core/fitting/line_scatter.hpp"
 #include "deploy/observation/figures.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/endpoints.hpp"
@@ -20,6 +22,9 @@ namespace quoin::deploy {
 
 /// What a heartbeat says, in the terms of a report.
 [[nodiscard]] ServiceReport report_of(const msg::ServiceStatus& status);
+
+/// How much lines scatter, of a service that fits them.
+[[nodiscard]] std::optional<LineScatter> line_scatter_of(const msg::ServiceStatus& status);
 
 /// What one process reported of itself.
 struct HeardHeartbeats {

@@ -5,6 +5,7 @@
 
 #include "core/fitting/fitters.hpp"
 #include "services/line_fitting/kind.hpp"
+#include "services/line_fitting/scatter_report.hpp"
 #include "services/runtime/process/run_node.hpp"
 #include "services/topics/lines.hpp"
 #include "services/topics/segments.hpp"
@@ -13,13 +14,15 @@ using namespace quoin;
 
 namespace {
 
-runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
-                                                 const ParameterSettings& parameters) {
+runtime::Method make(const std::string& method, const ParameterSettings& parameters) {
   const auto fit = Fitters::make<Fitter>(method, parameters);
   const std::string mode = Fitters::setting(method, parameters, "covariance");
   const bool scales = mode == enum_name(CovarianceMode::propagated);
   auto points = std::make_shared<Points>();
-  return [fit, mode, scales, points](const msg::Segments& in, msg::Lines& out) {
+  auto scatter = std::make_shared<ScatterReport>(fit);
+  return {.handle = [fit, mode, scales, points, scatter](runtime::Work& work) {
+    const msg::Segments& in = work.input<msg::Segments>();
+    msg::Lines& out = work.output<msg::Lines>();
     if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
     const SensorModel sensor = topics::sensor_model(in.sensor_model());
     convert_ordered(in.bearings(), in.ranges(), *points);
@@ -27,6 +30,7 @@ runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
     out.covariance_mode(mode);
     out.lines().clear();
     out.failures().clear();
+    scatter->begin(in, sensor);
     for (std::uint32_t i = 0; i < in.segments().size(); ++i) {
       const PointsView segment =
           points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
@@ -36,16 +40,19 @@ runtime::Handler<msg::Segments, msg::Lines> make(const std::string& method,
         if (scales) scale_to_residuals(result.estimate, residuals, segment.size());
         LineSegment line = line_segment(result.estimate, result.normal, segment);
         if (scales) add_flatness(line, sensor.flatness_stddev);
+        scatter->add(i, segment, residuals);
         topics::append_line(line, residuals, i, out);
       } else {
         topics::append_failure(result.failure, i, out);
       }
     }
-    return out.failures().size();
-  };
+    scatter->report(work);
+    work.fail(out.failures().size());
+  }};
 }
 
-const runtime::Registration registration(
-    runtime::stage_component<msg::Segments, msg::Lines>(line_fitting_kind(), make));
+const runtime::Registration registration(runtime::node_component(
+    line_fitting_kind(),
+    runtime::port_types(runtime::Reads<msg::Segments>(), runtime::Writes<msg::Lines>()), make));
 
 }  // namespace

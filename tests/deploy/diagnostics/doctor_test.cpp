@@ -238,5 +238,22 @@ TEST(DoctorNetwork, TellsEachMismatchOnce) {
               ElementsAre(is(Verdict::bad, "walls offers volatile", "same QoS")));
 }
 
+TEST(DoctorNetwork, ComplainsOfLinesThatScatterMoreOrLessThanModelled) {
+  const auto fitting = [](const Interval& reduced, std::size_t lines) {
+    HeardProcess process = heard("r/lines", "a", 1, 1, 0);
+    process.line_scatter = LineScatter{lines, reduced, 0, {}};
+    return process;
+  };
+  EXPECT_THAT(check_line_scatter({fitting({3.61, 3.5, 3.7}, 4000)}),
+              ElementsAre(is(Verdict::doubtful, "r/lines: lines scatter 1.9 times as much",
+                             "quoin calibrate")));
+  EXPECT_THAT(check_line_scatter({fitting({0.25, 0.2, 0.3}, 4000)}),
+              ElementsAre(is(Verdict::doubtful, "0.5 times as much", "quoin calibrate")));
+  // True, too few lines, not beyond the interval, and no lines at all.
+  EXPECT_THAT(check_line_scatter({fitting({1.02, 0.98, 1.06}, 4000), fitting({3.6, 3.5, 3.7}, 50),
+                                  fitting({1.5, 1.1, 2.1}, 200), heard("r/front", "a", 2, 1, 0)}),
+              IsEmpty());
+}
+
 }  // namespace
 }  // namespace quoin::deploy
