@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/angle.hpp"
 #include "core/sensor/points.hpp"
@@ -29,14 +30,28 @@ double ray_step(const LineSegment& line) {
   return std::abs(angle_to(line.start, line.end)) / static_cast<double>(line.points - 1);
 }
 
-/// Whether the bearings of two points differ by at most `reach` [rad], a small angle.
-bool are_near(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double reach) {
-  return std::abs(a.x() * b.y() - a.y() * b.x()) <= reach * a.dot(b);
+/// Like `angle_to`, where it is small: its tangent. Infinite from a right angle on.
+double small_angle_to(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const double along = from.dot(to);
+  const double across = from.x() * to.y() - from.y() * to.x();
+  return along > 0.0 ? across / along
+                     : std::copysign(std::numeric_limits<double>::infinity(), across);
 }
 
 // From the last ray of a wall to its corner. Segmenters leave out the point next to a corner, and a
 // few more may be strays.
 constexpr double steps_to_corner = 5.0;
+// Of the bearing of a corner, which may lie that far inside a wall, and a ray that was taken for
+// one of the other wall.
+constexpr double inside_deviations = 3.0;
+constexpr double inside_steps = 1.0;
+
+/// Standard deviation of the bearing of a point [rad].
+double bearing_stddev(const CornerEstimate& corner) {
+  const Eigen::Vector2d& position = corner.position;
+  const Eigen::Vector2d across(-position.y(), position.x());
+  return std::sqrt(std::max(0.0, across.dot(corner.covariance * across))) / position.squaredNorm();
+}
 
 /// In (0, 2 pi), clockwise from the first wall over the sensor's side to the second.
 double opening_of(const Eigen::Vector2d& corner, const LineSegment& first,
@@ -64,9 +79,14 @@ std::optional<NoCornerReason> Adjacent::find(std::span<const LineSegment> lines,
   corner.gap = (b.start - a.end).norm();
   corner.extrapolation =
       std::max((estimate->position - a.end).norm(), (estimate->position - b.start).norm());
-  const double reach = steps_to_corner * std::min(ray_steps_[first], ray_steps_[second]);
-  corner.seen =
-      are_near(a.end, estimate->position, reach) && are_near(estimate->position, b.start, reach);
+  const double step = std::min(ray_steps_[first], ray_steps_[second]);
+  const double behind_first = small_angle_to(a.end, estimate->position);
+  const double before_second = small_angle_to(estimate->position, b.start);
+  // A wall that is seen beyond the corner does not end there: it passes behind the other one.
+  const double inside = inside_steps * step + inside_deviations * bearing_stddev(*estimate);
+  if (std::min(behind_first, before_second) < -inside) return NoCornerReason::inside_line;
+  const double reach = steps_to_corner * step;
+  corner.seen = std::abs(behind_first) <= reach && std::abs(before_second) <= reach;
   if (!corner.seen) {
     if (!(corner.gap <= parameters_.max_gap)) return NoCornerReason::wide_gap;
     if (!(corner.extrapolation <= parameters_.max_extrapolation)) return NoCornerReason::far_away;

@@ -34,14 +34,16 @@ enum class NoCornerReason {
   small_angle,  ///< they are nearly parallel
   wide_gap,     ///< their facing ends are far apart
   far_away,     ///< they would meet far from a facing end
+  inside_line,  ///< they would meet where one of them is seen to go on
 };
 
 template <>
 struct EnumNames<NoCornerReason> {
-  static constexpr std::array<std::pair<NoCornerReason, std::string_view>, 3> names{
+  static constexpr std::array<std::pair<NoCornerReason, std::string_view>, 4> names{
       {{NoCornerReason::small_angle, "small_angle"},
        {NoCornerReason::wide_gap, "wide_gap"},
-       {NoCornerReason::far_away, "far_away"}}};
+       {NoCornerReason::far_away, "far_away"},
+       {NoCornerReason::inside_line, "inside_line"}}};
 };
 
 struct NoCorner {

@@ -86,6 +86,29 @@ TEST(Adjacent, TakesCornersThatAreWithinTheRaysOfTheSensor) {
   EXPECT_NEAR(found.corners[0].extrapolation, 1.6, 1e-9);
 }
 
+// The face of a cupboard ends at x = 1 before a wall that is seen on both sides of the line of that
+// face: it passes behind, and they meet nowhere.
+TEST(Adjacent, TakesNoCornerInsideAWallThatGoesOn) {
+  std::vector<LineSegment> lines{segment(pi / 4, 2.0, {2.0, 0.82}, {1.5, 1.32}),
+                                 segment(pi / 2, 1.6, {1.8, 1.6}, {-1.0, 1.6})};
+  for (LineSegment& line : lines) line.points = 60;
+  Adjacent::Parameters parameters;
+  parameters.max_gap = parameters.max_extrapolation = 5.0;
+  FoundCorners found;
+  Adjacent{parameters}(std::span(lines), 0.0, found);
+  EXPECT_TRUE(found.corners.empty());
+  ASSERT_EQ(found.without.size(), 2U);
+  EXPECT_EQ(found.without[0].reason, NoCornerReason::inside_line);
+  // Where it begins at the face, or within what its bearing is known to, it is a corner.
+  lines[1].start.x() = 1.23;
+  Adjacent{parameters}(std::span(lines), 0.0, found);
+  EXPECT_FALSE(found.corners.empty());
+  lines[1].start.x() = 1.27;
+  lines[0].estimate.covariance *= 100.0;
+  Adjacent{parameters}(std::span(lines), 0.0, found);
+  EXPECT_FALSE(found.corners.empty());
+}
+
 TEST(Adjacent, TellsCornersOfARoomFromThoseOfABox) {
   FoundCorners found;
   Adjacent{}(room(), 0.0, found);
