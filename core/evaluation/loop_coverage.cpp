@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "core/evaluation/corner_matching.hpp"
 #include "core/evaluation/scene.hpp"
+#include "core/fitting/line_difference.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace quoin {
@@ -69,14 +68,11 @@ class TrueLines {
   std::vector<std::size_t> counts_;
 };
 
-/// Squared Mahalanobis distance from the true line.
-double error_squared(const LineEstimate& found, const Line& truth) {
-  // Near the sensor the normal may turn over.
-  const bool turned = std::abs(normalized_angle(found.line.alpha - truth.alpha)) > 0.5 * pi;
-  const Line same = turned ? Line{truth.alpha + pi, -truth.r} : truth;
-  const Eigen::Vector2d error(normalized_angle(found.line.alpha - same.alpha),
-                              found.line.r - same.r);
-  return error.dot(found.covariance.inverse() * error);
+/// Squared Mahalanobis distance from the true line, at the middle of what is seen of it.
+double error_squared(const LineSegment& found, const Line& truth) {
+  const LineEstimate exact{truth, Eigen::Matrix2d::Zero()};
+  return LineDifference(found.estimate, exact, 0.5 * (found.start + found.end))
+      .mahalanobis_squared();
 }
 
 class LineTally {
@@ -93,7 +89,7 @@ class LineTally {
           truth.of(extraction.points().view().subview(segment.begin, segment.end));
       if (of == Hit::no_wall) continue;
       ++true_lines;
-      const double squared = error_squared(line.estimate, walls.lines[of]);
+      const double squared = error_squared(line, walls.lines[of]);
       covered += squared <= chi_square_2_95 ? 1 : 0;
       beyond_ += squared <= four_sigma_squared ? 0 : 1;
     }

@@ -21,7 +21,8 @@ inline constexpr double judged_line_length = 0.3;  // [m]
 struct LineQuality {
   std::size_t lines = 0;           ///< of at least `judged_line_length`
   std::size_t false_lines = 0;     ///< of them, those of no wall
-  Interval coverage;               ///< share of the others in their 95 % ellipse of (alpha, r)
+  Interval coverage;               ///< share of the others in their 95 % ellipse of direction and
+                                   ///< offset at the middle of the wall
   double beyond_four_sigma = 0.0;  ///< share of the others
 };
 

@@ -134,7 +134,7 @@ Command add_evaluate(CLI::App& app) {
                    "Fitters to judge (quoin methods line_fitting lists them); else all")
       ->delimiter(',');
   line->add_option("--worlds", evaluation.worlds,
-                   "Built-in worlds or world files; else what each section says")
+                   "Built-in worlds, world files or folders of them; else what each section says")
       ->delimiter(',');
   line->add_option("--scans", evaluation.scans,
                    "Scan files (CARMEN, CSV) or folders of them to extract corners from");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "core/fitting/fitters.hpp"
 #include "core/parameters/parameter.hpp"
@@ -54,6 +55,22 @@ std::vector<ScanFile> read_scan_files(const std::vector<std::string>& paths) {
   return files;
 }
 
+/// The world files of a folder in the order of their names; anything else as it is.
+std::vector<std::string> worlds_in(const std::string& world) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(world, ignored)) return {world};
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(world, ignored)) {
+    const std::string ending = entry.path().extension();
+    if (ending == ".yaml" || ending == ".yml") files.push_back(entry.path().string());
+  }
+  if (files.empty()) {
+    throw OptionError("--worlds: there is no world file (.yaml) in folder '" + world + "'");
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
 }  // namespace
 
 EvaluationSetup prepare(const EvaluationOptions& options) {
@@ -77,7 +94,9 @@ EvaluationSetup prepare(const EvaluationOptions& options) {
   setup.loop_segmenters =
       options.segmenters.empty() ? std::vector{all_segmenters.front()} : options.segmenters;
   for (const std::string& world : options.worlds) {
-    setup.worlds.push_back(sensor_bridge::load_world(world, "."));
+    for (const std::string& one : worlds_in(world)) {
+      setup.worlds.push_back(sensor_bridge::load_world(one, "."));
+    }
   }
   setup.scan_files = read_scan_files(options.scans);
   return setup;

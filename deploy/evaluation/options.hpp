@@ -27,7 +27,7 @@ class OptionError : public std::runtime_error {
 struct EvaluationOptions {
   std::vector<std::string> segmenters;
   std::vector<std::string> fitters;
-  std::vector<std::string> worlds;  ///< names of built-in worlds or paths of world files
+  std::vector<std::string> worlds;  ///< names of built-in worlds, world files or folders of them
   std::vector<std::string> scans;   ///< paths of scan files or folders of them
   SensorModel scan_noise;           ///< of the sensor that recorded `scans`
   std::vector<std::string> only;    ///< names of sections

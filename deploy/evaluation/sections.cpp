@@ -13,6 +13,7 @@ const std::vector<SectionKind>& section_kinds() {
       {"lines", "Lines of any length and distance", make_lines_section},
       {"circles", "Consistency of circles", make_circles_section},
       {"loop", "Coverage with segmentation in the loop", make_loop_section},
+      {"worlds", "Rooms, flats and halls", make_worlds_section},
       {"segmenters", "Segmenters", make_segmenters_section},
       {"robustness", "Stray returns, few rays and round things", make_robustness_section},
       {scan_files_section, "Scan files", make_scan_files_section}};

@@ -94,7 +94,7 @@ TEST(Evaluation, ConsistencyIsThatOfADirectComputation) {
   const Consistency direct = judge_consistency(
       make_fitter("utls", "propagated"), observe(world, world.pose_at(0.0), 935), noise, 40,
       derived_seed(1, "consistency/environment_a/" + noise_text(noise)));
-  EXPECT_EQ(entry["nees"].get<double>(), direct.corners.nees.value);
+  EXPECT_EQ(entry["nees"].get<double>(), direct.nees.value);
   EXPECT_EQ(entry["coverage95"].get<double>(), direct.coverage95.value);
   EXPECT_EQ(entry["coverage95_interval"][0].get<double>(), direct.coverage95.low);
   EXPECT_EQ(entry["coverage95_interval"][1].get<double>(), direct.coverage95.high);
@@ -183,6 +183,54 @@ TEST(Evaluation, LoopIsThatOfADirectComputation) {
   EXPECT_EQ(entry["line_coverage95"].get<double>(), direct.lines.coverage.value);
   EXPECT_EQ(entry["corners_per_scan"].get<double>(), direct.corners_per_scan);
   EXPECT_EQ(entry["nees"].get<double>(), direct.corners.nees.value);
+}
+
+TEST(Evaluation, WorldsAreThoseOfADirectComputation) {
+  const TemporaryFolder folder;
+  // A partition that ends on a wall makes corners on both sides.
+  folder.write("flat.yaml",
+               "walls:\n  - {points: [[0, 0], [6, 0], [6, 4], [0, 4]], closed: true}\n"
+               "  - {points: [[3, 0], [3, 2.5]], closed: false}\npath:\n  - [1.5, 1.5, 0]\n");
+  folder.write("notes.txt", "not a world");
+  EvaluationOptions options = quick("worlds");
+  options.worlds = {folder.path().string()};
+  options.scans_per_world = 500;
+  const json report = report_of(options);
+  ASSERT_EQ(report["worlds"].size(), 2U);  // at 10 and at 30 mm
+  const json& entry = report["worlds"][0];
+  EXPECT_EQ(entry["name"], "flat");
+  EXPECT_EQ(entry["fitter"], "utls");  // the first that is judged
+  EXPECT_EQ(entry["scans"], 500);
+  Extraction extraction(make_segmenter("iepf"), make_fitter("utls", "propagated"),
+                        CornerFinders::make<CornerFinder>("adjacent", {}));
+  const World world = prepare(options).worlds.front();
+  const LoopCoverage direct =
+      judge_loop(extraction, {&world, 1}, {.scans = 500, .seed = derived_seed(1, "worlds/flat")});
+  EXPECT_EQ(entry["recall"].get<double>(), direct.corners.recall.value);
+  EXPECT_EQ(entry["coverage95"].get<double>(), direct.corners.coverage.value);
+  EXPECT_EQ(entry["line_coverage95"].get<double>(), direct.lines.coverage.value);
+  // (0, 0), (0, 4) and (3, 0) are near enough to be seen in each scan.
+  EXPECT_GE(entry["judged_corners"].get<int>(), 1);
+  EXPECT_LT(entry["judged_corners_coverage95"][0].get<double>(),
+            entry["judged_corners_coverage95"][1].get<double>() + 1e-12);
+  EXPECT_GT(entry["judged_corners_coverage95"][0].get<double>(), 0.9);
+}
+
+TEST(Evaluation, WorldsAtRandomAreRoomsFlatsAndHalls) {
+  EvaluationOptions options = quick("worlds");
+  options.scans_per_world = 8;  // two of each
+  const json report = report_of(options);
+  // Three styles at two noises, rooms with strays, and with few rays.
+  ASSERT_EQ(report["worlds"].size(), 3U * 2U + 1U + 4U);
+  EXPECT_EQ(report["worlds"][0]["name"], "rooms");
+  EXPECT_EQ(report["worlds"][0]["worlds"], 40);
+  EXPECT_EQ(report["worlds"][0]["scans"], 80);
+  EXPECT_GT(report["worlds"][0]["recall"].get<double>(), 0.9);
+  EXPECT_EQ(report["worlds"][5]["name"], "halls");
+  EXPECT_EQ(report["worlds"][6]["strays"], 0.03);
+  EXPECT_EQ(report["worlds"][10]["rays"], 32);
+  EXPECT_EQ(report["worlds"][0]["judged_corners"], 0);
+  EXPECT_TRUE(report["worlds"][0]["judged_corners_coverage95"].is_null());
 }
 
 TEST(Evaluation, PublishedFiguresStandBesideOurs) {

@@ -75,6 +75,23 @@ TEST(EvaluationOptions, BadScanFilesAreToldWithTheirPlace) {
   EXPECT_THAT(complaint<sensor_bridge::ScanFileError>(options), HasSubstr("absent.csv"));
 }
 
+TEST(EvaluationOptions, AFolderOfWorldsIsReadByName) {
+  const TemporaryFolder folder;
+  EvaluationOptions options;
+  options.worlds = {folder.path().string()};
+  EXPECT_THAT(complaint<OptionError>(options), HasSubstr("there is no world file"));
+  for (const char* name : {"b.yaml", "a.yml"}) {
+    folder.write(name,
+                 "walls:\n  - {points: [[2, -3], [2, 3]], closed: false}\npath:\n  - [0, 0, 0]\n");
+  }
+  options.worlds.push_back("corridor");
+  const EvaluationSetup setup = prepare(options);
+  ASSERT_EQ(setup.worlds.size(), 3U);
+  EXPECT_EQ(setup.worlds[0].name, "a");
+  EXPECT_EQ(setup.worlds[1].name, "b");
+  EXPECT_EQ(setup.worlds[2].name, "corridor");
+}
+
 TEST(EvaluationOptions, CovarianceModesAreThoseOfTheFitter) {
   EXPECT_THAT(covariance_modes("utls"), ElementsAre("propagated", "as_published"));
   EXPECT_THAT(covariance_modes("no_such_fitter"), ElementsAre(""));
