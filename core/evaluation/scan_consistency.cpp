@@ -20,11 +20,13 @@ namespace {
 constexpr std::size_t stretches = 20;  // of a file, for intervals
 constexpr std::size_t quantile_count = 200;
 
-constexpr double rest_distance = 1e-3;                // [m]
-constexpr double rest_angle = 0.05 * pi / 180.0;      // [rad]
-constexpr double same_wall_angle = 3.0 * pi / 180.0;  // [rad]
-constexpr double same_wall_distance = 0.1;            // [m] of the middle, across
-constexpr double same_wall_ends = 0.15;               // [m]
+constexpr double rest_distance = 1e-3;                   // [m]
+constexpr double rest_angle = 0.05 * pi / 180.0;         // [rad]
+constexpr double perhaps_rest_distance = 0.02;           // [m]
+constexpr double perhaps_rest_angle = 0.5 * pi / 180.0;  // [rad]
+constexpr double same_wall_angle = 3.0 * pi / 180.0;     // [rad]
+constexpr double same_wall_distance = 0.1;               // [m] of the middle, across
+constexpr double same_wall_ends = 0.15;                  // [m]
 constexpr std::size_t fewest_walls_for_motion = 3;
 constexpr double one_in_100 = 2.326347874040841;  // quantile of the standard normal distribution
 
@@ -102,13 +104,16 @@ void ScanConsistency::add(const Extraction& extraction, const std::optional<Pose
     if (front && back) compare(SplitTest::halves, *front, *back, whole->middle);
   }
   if (scans_ > 0) {
-    bool moved = false;
     const bool known = pose && last_pose_;
-    if (known) {
-      moved = std::hypot(pose->x - last_pose_->x, pose->y - last_pose_->y) > rest_distance ||
-              std::abs(normalized_angle(pose->theta - last_pose_->theta)) > rest_angle;
+    const auto within = [&](double distance, double angle) {
+      return std::hypot(pose->x - last_pose_->x, pose->y - last_pose_->y) <= distance &&
+             std::abs(normalized_angle(pose->theta - last_pose_->theta)) <= angle;
+    };
+    const bool at_rest = known && within(rest_distance, rest_angle);
+    // Poses that come from matching scans are not steady when the sensor is.
+    if (!known || within(perhaps_rest_distance, perhaps_rest_angle)) {
+      compare_with_last(lines, at_rest);
     }
-    if (!moved) compare_with_last(lines, known);
   }
   last_ = std::move(lines);
   last_pose_ = pose;

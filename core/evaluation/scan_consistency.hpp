@@ -77,8 +77,9 @@ class ScanConsistency {
   void begin_recording() { last_.clear(); }
 
   /// Takes the segments of the last scan of `extraction`. `pose` [m, rad] is where the sensor was,
-  /// if the recording knows it: at rest is what has moved less than 1 mm and 0.05 deg since the
-  /// scan before. Without it, the sensor is at rest when its lines show no significant motion.
+  /// if the recording knows it: what has moved less than 1 mm and 0.05 deg since the scan before is
+  /// at rest, what has moved more than 2 cm or 0.5 deg is not. Between them, and without a pose,
+  /// the sensor is at rest when its lines show no significant motion.
   void add(const Extraction& extraction, const std::optional<Pose2>& pose = std::nullopt);
 
   [[nodiscard]] ScanConsistencyFigures figures() const;
