@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fitting/line_scatter.hpp"
+#include "core/statistics/line_scatter.hpp"
 #include "deploy/diagnostics/check.hpp"
 
 namespace quoin::deploy {

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "core/fitting/line_scatter.hpp"
+#include "core/statistics/line_scatter.hpp"
 #include "deploy/observation/figures.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/endpoints.hpp"

@@ -10,8 +10,8 @@
 
 #include "core/fitting/fit.hpp"
 #include "core/fitting/line_difference.hpp"
-#include "core/fitting/line_scatter.hpp"
 #include "core/sensor/points.hpp"
+#include "core/statistics/line_scatter.hpp"
 #include "services/runtime/node/method.hpp"
 
 namespace quoin {

@@ -253,6 +253,25 @@ TEST(Status, TellsWhatRunsAndWhoDoesNotFitToWhom) {
       testing::Contains(testing::Pair("deployments", HasSubstr("/walls runs more than once"))));
 }
 
+TEST(Status, SaysHowMuchLinesScatter) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  json scatter;
+  ASSERT_TRUE(tests::eventually([&] {
+    Process listing = deployment.quoin({"status", "FILE", "--json"});
+    EXPECT_TRUE(listing.wait(20s)) << listing.errors();
+    const json services = json::parse(listing.output())["services"];
+    scatter = services.value("wctls", json::object()).value("line_scatter", json());
+    return !scatter.is_null() && scatter["lines"] >= 400;
+  }));
+  // The simulated sensor declares its noise truly.
+  EXPECT_NEAR(scatter["reduced_chi_square"].get<double>(), 1.0, 0.15);
+  EXPECT_LT(scatter["reduced_chi_square_interval"][0], scatter["reduced_chi_square_interval"][1]);
+  EXPECT_GT(scatter["odd_even_lines"], 10);
+  EXPECT_GT(scatter["odd_even_inside95"], 0.8);
+  EXPECT_EQ(scatter["complaint"], "");
+}
+
 TEST(Echo, PrintsTheMessagesOfAService) {
   const TestDeployment deployment(chain("rate_hz: 50"));
   Process up = deployment.quoin({"up", "FILE", "--quiet"});

@@ -112,7 +112,8 @@ TEST(ScanConsistency, FlatnessIsLeftOutWhereBothLinesShareIt) {
 TEST(ScanConsistency, ASensorThatMovesIsNotAtRest) {
   const ScanConsistencyFigures unknown = judge({{}, {}, 0.2});
   EXPECT_LT(unknown.scans_at_rest, 20U);
-  const ScanConsistencyFigures known = judge({{}, {}, 0.5, true});
+  // 0.9 m, before it turns back.
+  const ScanConsistencyFigures known = judge({{}, {}, 0.5, true, {}, 18});
   EXPECT_EQ(known.scans_at_rest, 0U);
   EXPECT_EQ(known.modelled[at_rest].count, 0U);
   EXPECT_TRUE(known.modelled[at_rest].quantiles.empty());

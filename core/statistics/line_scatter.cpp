@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/line_scatter.hpp"
+#include "core/statistics/line_scatter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/geometry/corner.hpp"
-
 namespace quoin {
 namespace {
 
 constexpr double normal_97_5 = 1.959963984540054;
+constexpr double chi_square_2_95 = 5.991464547107979;
 constexpr std::size_t fewest_lines = 100;
 // What noise is known to at best; less is not worth a word.
 constexpr double worth_a_word = 1.1;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/line_scatter.hpp"
+#include "core/statistics/line_scatter.hpp"
 
 #include <limits>
 
