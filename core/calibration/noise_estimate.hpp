@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/sensor/points.hpp"
+#include "core/statistics/interval.hpp"
+
+namespace quoin {
+
+/// What makes the points of a wall leave its line, as scans show it.
+struct NoiseComponents {
+  double range_stddev = 0.0;            ///< [m] of each range, quantization included
+  double range_stddev_per_metre = 0.0;  ///< without unit: what grows with the range
+  double bearing_stddev = 0.0;          ///< [rad] what grows with range and incidence
+  double flatness_stddev = 0.0;         ///< [m] shared by neighbouring rays, see SensorModel
+  /// [m] between odd and even rays of one wall: sensors that sweep twice with half of the rays each
+  /// show how they moved in between.
+  double interlace_stddev = 0.0;
+  /// Of the residuals of neighbouring rays; 0 for white noise.
+  double neighbour_correlation = 0.0;
+
+  /// As a sensor model; the bias of ranges does not show in the lines of walls and stays 0.
+  [[nodiscard]] SensorModel model() const {
+    return {range_stddev, bearing_stddev, 0.0, range_stddev_per_metre, flatness_stddev};
+  }
+};
+
+/// Standard deviation of ranges about the lines of walls, in a band of ranges or incidences.
+struct NoiseBand {
+  double low = 0.0, high = 0.0;  ///< [m] of the range, or [rad] of the incidence
+  std::size_t points = 0;
+  double measured = 0.0;  ///< [m]
+  double modelled = 0.0;  ///< [m] by the components
+};
+
+/// Components with 95 % intervals, and what they rest on.
+struct NoiseEstimate {
+  NoiseComponents components;
+  Interval range_stddev;            ///< [m]
+  Interval range_stddev_per_metre;  ///< without unit
+  Interval bearing_stddev;          ///< [rad]
+  Interval flatness_stddev;         ///< [m]
+  Interval interlace_stddev;        ///< [m]
+  Interval neighbour_correlation;
+  double quantization = 0.0;  ///< [m] step of the ranges; 0 when none is seen
+  std::size_t scans = 0;      ///< that were given
+  std::size_t walls = 0;
+  std::size_t long_walls = 0;  ///< of enough points to compare their halves
+  std::size_t points = 0;      ///< on walls
+  double nearest = 0.0;        ///< [m] range below which 5 % of the points on walls lie
+  double farthest = 0.0;       ///< [m] below which 95 % of them lie
+  double steepest = 0.0;       ///< [rad] incidence below which 95 % of them are met
+  /// Median of the reduced chi square of the walls under the components, 1 when they describe the
+  /// scans, and the share of walls that leave their line by more than noise does once in 1000
+  /// times.
+  double reduced_chi_square = 0.0;
+  double refuted = 0.0;
+  std::vector<NoiseBand> by_range, by_incidence;
+};
+
+}  // namespace quoin

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/calibration/variance_components.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "core/statistics/order_statistics.hpp"
+
+namespace quoin {
+namespace {
+
+using Variances = Eigen::Vector3d;  // in the order of NoiseFactor
+using Weights = Eigen::Matrix3d;
+
+constexpr double smallest_variance = 1e-10;  // [m^2] (10 um)^2: no range finder is better
+
+Variances variances_of(const SensorModel& model) {
+  return {model.range_stddev * model.range_stddev,
+          model.range_stddev_per_metre * model.range_stddev_per_metre,
+          model.bearing_stddev * model.bearing_stddev};
+}
+
+double variance_of(const ResidualBlock& block, const Variances& variances) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < noise_factor_count; ++k) {
+    sum += block.factors[k] * variances[static_cast<Eigen::Index>(k)];
+  }
+  return std::max(sum, smallest_variance);
+}
+
+double chi_square(const ResidualTable& table, const WallResiduals& wall,
+                  const Variances& variances) {
+  double sum = 0.0;
+  for (const ResidualBlock& block : table.blocks(wall)) {
+    sum += block.squared / variance_of(block, variances);
+  }
+  return sum;
+}
+
+/// The x >= 0 that minimizes x' A x / 2 - b' x, with the first of them positive: the best of the
+/// minima on all faces of it. No sensor is without noise at the range 0, and walls that are all far
+/// away could not tell its noise from one that grows.
+Variances nonnegative_minimum(const Weights& a, const Variances& b) {
+  Variances best = Variances::Zero();
+  double lowest = 0.0;
+  for (unsigned face = 1; face < 8; face += 2) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if ((face >> static_cast<unsigned>(k) & 1U) != 0) free.push_back(k);
+    }
+    const Eigen::MatrixXd part = a(free, free);
+    const Eigen::VectorXd right = b(free);
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(part);
+    if (!lu.isInvertible()) continue;
+    const Eigen::VectorXd x = lu.solve(right);
+    if (!x.allFinite() || !(x.minCoeff() >= 0.0)) continue;
+    const double value = -0.5 * right.dot(x);
+    if (value >= lowest) continue;
+    lowest = value;
+    best.setZero();
+    for (std::size_t k = 0; k < free.size(); ++k) best[free[k]] = x[static_cast<Eigen::Index>(k)];
+  }
+  return best;
+}
+
+/// Variances under which the median wall has the chi square that it should have, whatever its
+/// range and incidence: least absolute deviations, by reweighting. Half of the walls may be
+/// anything without an effect that grows with how far off they are.
+Variances ray_variances(const ResidualTable& table, std::span<const WallResiduals> walls,
+                        Variances variances) {
+  constexpr int most_iterations = 100;
+  constexpr double nearest = 0.05;  // deviations below it count alike, so that weights are finite
+  constexpr double enough = 1e-5;
+  Variances result = Variances::Zero();
+  for (int iteration = 0; iteration < most_iterations && !walls.empty(); ++iteration) {
+    // In units of the last estimate, or of what would explain all noise, the three are comparable.
+    Weights information = Weights::Zero();
+    Variances right = Variances::Zero();
+    for (const WallResiduals& wall : walls) {
+      const double freedom = wall.points - 2.0;
+      const double expected = median_chi_square(freedom);
+      const double relative = chi_square(table, wall, variances) / expected - 1.0;
+      const double weight = 1.0 / (std::sqrt(freedom) * std::max(std::abs(relative), nearest));
+      for (const ResidualBlock& block : table.blocks(wall)) {
+        const double variance = variance_of(block, variances);
+        const Variances factors(block.factors[0], block.factors[1], block.factors[2]);
+        const double w = weight / (variance * variance);
+        information += w * block.points * factors * factors.transpose();
+        right += w * (wall.points / expected) * block.squared * factors;
+      }
+    }
+    const Variances units = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Weights scaled = units.asDiagonal() * information * units.asDiagonal();
+    const Variances found =
+        nonnegative_minimum(scaled, units.asDiagonal() * right).cwiseProduct(units);
+    const double change = (found - variances).cwiseQuotient(units).norm();
+    const double size = found.cwiseQuotient(units).norm();
+    // Half of the way: reweighted by the inverse deviation, whole steps swing to and fro.
+    variances = 0.5 * (variances + found);
+    result = found;
+    if (change < enough * size) break;
+  }
+  return result;
+}
+
+/// The standard deviation of what is added to the noise, so that the mean of `excess`, a function
+/// of it that falls, is 0; 0 when it never is above.
+template <class Excess>
+double added_stddev(double largest, const Excess& excess) {
+  constexpr int bisections = 40;
+  if (!(excess(0.0) > 0.0)) return 0.0;
+  double low = 0.0;
+  double high = largest;
+  for (int i = 0; i < bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+constexpr double largest_added = 1.0;  // [m]
+// Chi square with two degrees of freedom is below it 95 times in 100.
+constexpr double chi_square_of_two_95 = 5.9915;
+// A squared distance with one degree of freedom counts up to where it should be exceeded once in
+// 100 times, and its mean is then this.
+constexpr double most_of_one = 6.6349;
+constexpr double mean_of_one = 0.9819;
+
+/// With it the 95 % ellipses of the halves of walls hold 95 % of their differences.
+double flatness(std::span<const WallResiduals> walls) {
+  return added_stddev(largest_added, [&](double stddev) {
+    double excess = 0.0;
+    for (const WallResiduals& wall : walls) {
+      if (!wall.halves) continue;
+      const LineDifference& halves = *wall.halves;
+      const Eigen::Matrix2d covariance = halves.noise + stddev * stddev * halves.unevenness;
+      const double squared = halves.difference.dot(covariance.inverse() * halves.difference);
+      excess += squared > chi_square_of_two_95 ? 0.95 : -0.05;
+    }
+    return excess;
+  });
+}
+
+double interlacing(std::span<const WallResiduals> walls) {
+  return added_stddev(largest_added, [&](double stddev) {
+    double excess = 0.0;
+    for (const WallResiduals& wall : walls) {
+      if (!(wall.alternation_noise > 0.0)) continue;
+      const double variance = wall.alternation_noise + stddev * stddev;
+      excess += std::min(wall.alternation * wall.alternation / variance, most_of_one) - mean_of_one;
+    }
+    return excess;
+  });
+}
+
+double correlation(std::span<const WallResiduals> walls) {
+  std::vector<double> values;
+  for (const WallResiduals& wall : walls) {
+    // Of white residuals about a line that was fitted to them it is about -3 / n.
+    if (wall.halves) values.push_back(wall.neighbours + 3.0 / wall.points);
+  }
+  return median(std::move(values));
+}
+
+}  // namespace
+
+double median_chi_square(double freedom) {
+  const double root = 1.0 - 2.0 / (9.0 * freedom);
+  return freedom * root * root * root;
+}
+
+double variance_of(const ResidualBlock& block, const SensorModel& model) {
+  return variance_of(block, variances_of(model));
+}
+
+double chi_square(const ResidualTable& table, const WallResiduals& wall, const SensorModel& model) {
+  return chi_square(table, wall, variances_of(model));
+}
+
+NoiseComponents find_components(const ResidualTable& table, std::span<const WallResiduals> walls,
+                                const SensorModel& start) {
+  NoiseComponents components;
+  const Variances variances = ray_variances(table, walls, variances_of(start));
+  components.range_stddev = std::sqrt(variances[of_range]);
+  components.range_stddev_per_metre = std::sqrt(variances[of_growth]);
+  components.bearing_stddev = std::sqrt(variances[of_bearing]);
+  components.flatness_stddev = flatness(walls);
+  components.interlace_stddev = interlacing(walls);
+  components.neighbour_correlation = correlation(walls);
+  return components;
+}
+
+}  // namespace quoin
