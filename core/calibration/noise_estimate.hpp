@@ -45,8 +45,10 @@ struct NoiseEstimate {
   Interval flatness_stddev;         ///< [m]
   Interval interlace_stddev;        ///< [m]
   Interval neighbour_correlation;
-  double quantization = 0.0;  ///< [m] step of the ranges; 0 when none is seen
-  std::size_t scans = 0;      ///< that were given
+  double middle_range = 0.0;     ///< [m] median of the points on walls
+  Interval middle_range_stddev;  ///< [m] of a range there
+  double quantization = 0.0;     ///< [m] step of the ranges; 0 when none is seen
+  std::size_t scans = 0;         ///< that were given
   std::size_t walls = 0;
   std::size_t long_walls = 0;  ///< of enough points to compare their halves
   std::size_t points = 0;      ///< on walls
@@ -60,5 +62,18 @@ struct NoiseEstimate {
   double refuted = 0.0;
   std::vector<NoiseBand> by_range, by_incidence;
 };
+
+/// Why scans do not show the noise of their sensor.
+enum class NoiseGap {
+  few_walls,          ///< too few to tell anything
+  few_long_walls,     ///< too few to compare halves
+  wide_interval,      ///< the noise at the middle range is uncertain by more than a quarter
+  uniform_range,      ///< all walls equally far: what grows with the range does not show
+  uniform_incidence,  ///< all walls met head on: noise of the bearings does not show
+  no_walls,           ///< a third of them is none: clutter, round surfaces, a moving scene
+};
+
+/// All that is missing; none when the estimate can be used.
+[[nodiscard]] std::vector<NoiseGap> gaps_of(const NoiseEstimate& estimate);
 
 }  // namespace quoin

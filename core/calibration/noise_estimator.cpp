@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -51,10 +52,14 @@ class Jackknife {
   }
 
   /// Of a standard deviation: by its square, which may be 0 as well as not.
-  [[nodiscard]] Interval of_stddev(double NoiseComponents::*component) const {
-    const Interval squared =
-        of([component](const NoiseComponents& c) { return c.*component * (c.*component); });
-    return {all_.*component, std::sqrt(std::max(0.0, squared.low)), std::sqrt(squared.high)};
+  template <class Stddev>
+  [[nodiscard]] Interval of_stddev(const Stddev& stddev) const {
+    const Interval squared = of([&stddev](const NoiseComponents& components) {
+      const double value = std::invoke(stddev, components);
+      return value * value;
+    });
+    return {std::invoke(stddev, all_), std::sqrt(std::max(0.0, squared.low)),
+            std::sqrt(squared.high)};
   }
 
   template <class Figure>
@@ -140,6 +145,7 @@ void describe(const ResidualTable& table, NoiseEstimate& estimate) {
   estimate.reduced_chi_square = median(std::move(reduced));
   estimate.refuted = static_cast<double>(refuted) / static_cast<double>(estimate.walls);
   estimate.nearest = quantile(ranges, 0.05);
+  estimate.middle_range = median(ranges);
   estimate.farthest = quantile(std::move(ranges), 0.95);
   estimate.steepest = quantile(std::move(incidences), 0.95);
   estimate.by_range = noise_bands(table, model, estimate.farthest,
@@ -184,8 +190,13 @@ NoiseEstimate NoiseEstimator::estimate(const SensorModel& start) const {
   estimate.interlace_stddev = jackknife.of_stddev(&C::interlace_stddev);
   estimate.neighbour_correlation =
       jackknife.of([](const C& components) { return components.neighbour_correlation; });
-  estimate.quantization = quantization_step(sample_.ranges());
+  // The jackknife needs the middle range, which the residuals show.
   describe(table, estimate);
+  estimate.middle_range_stddev = jackknife.of_stddev([&estimate](const C& components) {
+    return std::hypot(components.range_stddev,
+                      components.range_stddev_per_metre * estimate.middle_range);
+  });
+  estimate.quantization = quantization_step(sample_.ranges());
   return estimate;
 }
 

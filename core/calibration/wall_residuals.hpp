@@ -14,9 +14,9 @@
 
 namespace quoin {
 
-/// What the variance of the distance of a point from its line is made of: it is the sum of these
-/// factors, each with its own variance (FORMULAS: range noise by the cosine of the incidence angle
-/// phi, bearing noise by the coordinate t along the line).
+/// What the variance of the distance of a point from its line is made of: the sum of these factors,
+/// each times its own variance. phi is the angle of incidence, rho the range where the ray meets
+/// the line, t the coordinate along the line from the foot of the perpendicular.
 enum NoiseFactor : std::size_t {
   of_range,    ///< cos^2(phi), times range_stddev^2
   of_growth,   ///< (rho cos(phi))^2, times range_stddev_per_metre^2
@@ -55,7 +55,7 @@ struct WallResiduals {
   std::optional<LineDifference> halves;  ///< of long walls
 };
 
-/// Walls of fewer points are too short to compare their halves (FORMULAS, section 11).
+/// Walls of fewer points are too short to compare their halves.
 inline constexpr std::size_t fewest_points_of_halves = 20;
 
 /// Fits each wall under a sensor model and collects what is off the lines.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/calibration/quantization.hpp"
@@ -182,6 +183,22 @@ TEST_F(NoiseEstimatorTest, KeepsAsManyPointsAsItMay) {
   EXPECT_LE(found.points, 5000U);
   EXPECT_GE(found.points, 2000U);
   EXPECT_NEAR(found.components.range_stddev, 0.01, 0.001);
+}
+
+TEST_F(NoiseEstimatorTest, SaysWhatIsMissing) {
+  EXPECT_TRUE(gaps_of(estimate({})).empty());
+  EXPECT_THAT(gaps_of(estimate({}, 3)),
+              testing::IsSupersetOf({NoiseGap::few_walls, NoiseGap::few_long_walls}));
+  EXPECT_THAT(gaps_of(NoiseEstimator().estimate()),
+              testing::ElementsAre(NoiseGap::few_walls, NoiseGap::few_long_walls));
+  EXPECT_THAT(gaps_of(estimate({.noisy_walls = 0.45})), testing::Contains(NoiseGap::no_walls));
+  NoiseEstimate estimated = estimate({});
+  estimated.steepest = 0.3;
+  estimated.nearest = estimated.farthest = 2.0;
+  estimated.middle_range_stddev = {0.01, 0.006, 0.014};
+  EXPECT_THAT(gaps_of(estimated),
+              testing::ElementsAre(NoiseGap::wide_interval, NoiseGap::uniform_range,
+                                   NoiseGap::uniform_incidence));
 }
 
 TEST(QuantizationStep, IsFoundWhereThereIsOne) {
