@@ -28,6 +28,7 @@ struct Command {
 
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_apply(CLI::App& app);
+[[nodiscard]] Command add_calibrate(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);
 [[nodiscard]] Command add_status(CLI::App& app);
