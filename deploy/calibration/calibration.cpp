@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/calibration/calibration.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/calibration/noise_estimator.hpp"
@@ -16,26 +17,43 @@ namespace {
 constexpr int passes = 3;
 // How far the measured distance may be from the given one.
 constexpr double largest_bias = 0.3;  // [m]
-// A wall that shorter pieces of clutter are not.
+// Shorter pieces may be clutter.
 constexpr std::size_t fewest_points = 20;
 
-/// Measured distance [m] of the wall nearest to the given distance, of those that are seen head on.
-std::optional<double> measured_distance(const PointsView& points, const Segmentation& found,
-                                        const SensorModel& sensor, double distance) {
+/// Mean error [m] of the ranges of a wall at this distance along its normal, of the rays that meet
+/// it nearly head on: an error along the others moves the line by less.
+std::optional<double> mean_range_error(const PointsView& points, const Eigen::Vector2d& normal,
+                                       double distance) {
+  constexpr double smallest_cosine = 0.9;
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double cosine = points.cosine[i] * normal.x() + points.sine[i] * normal.y();
+    if (cosine < smallest_cosine) continue;
+    sum += points.range[i] - distance / cosine;
+    count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return sum / count;
+}
+
+/// Error [m] of the ranges of the wall nearest to the given distance, of those that are seen head
+/// on.
+std::optional<double> range_error(const PointsView& points, const Segmentation& found,
+                                  const SensorModel& sensor, double distance) {
   std::optional<double> best;
   for (const Segment& wall : found.segments) {
     if (wall.size() < fewest_points) continue;
     const PointsView view = points.subview(wall.begin, wall.end);
     const FitResult fit = InverseRange()(view, sensor);
-    if (!fit.ok()) continue;
+    if (!fit.ok() || std::abs(fit.estimate.line.r - distance) > largest_bias) continue;
     const LineSegment line = line_segment(fit.estimate, fit.normal, view);
     // The foot of the perpendicular is between the ends.
     const double start = fit.normal.x() * line.start.y() - fit.normal.y() * line.start.x();
     const double end = fit.normal.x() * line.end.y() - fit.normal.y() * line.end.x();
     if (start * end > 0.0) continue;
-    const double r = fit.estimate.line.r;
-    if (std::abs(r - distance) > largest_bias) continue;
-    if (!best || std::abs(r - distance) < std::abs(*best - distance)) best = r;
+    const auto error = mean_range_error(view, fit.normal, distance);
+    if (error && (!best || std::abs(*error) < std::abs(*best))) best = error;
   }
   return best;
 }
@@ -98,9 +116,7 @@ std::optional<Calibration> calibrate(const CollectedScans& scans, std::optional<
       set_aside(points, found);
       estimator.add(points, found.segments);
       if (!distance) continue;
-      if (const auto measured = measured_distance(points, found, model, *distance)) {
-        errors.push_back(*measured - *distance);
-      }
+      if (const auto error = range_error(points, found, model, *distance)) errors.push_back(*error);
     }
     const bool last = pass + 1 == passes;
     if (last) {
