@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/parameters/parameter.hpp"
@@ -10,8 +13,25 @@
 
 namespace quoin {
 
-/// Description of a sensor model, for the parameters `P` of a source, which derive from it: they
-/// are what the source declares of its sensor in each scan.
+/// Where line fitting takes the noise of the sensor from.
+enum class NoiseOrigin {
+  declared,   ///< what the source says
+  estimated,  ///< the last scans, as soon as they show it; what the source says before
+};
+
+template <>
+struct EnumNames<NoiseOrigin> {
+  static constexpr std::array<std::pair<NoiseOrigin, std::string_view>, 2> names{
+      {{NoiseOrigin::declared, "declared"}, {NoiseOrigin::estimated, "estimated"}}};
+};
+
+/// What a source says of its sensor.
+struct SensorDeclaration : SensorModel {
+  NoiseOrigin noise = NoiseOrigin::declared;
+};
+
+/// Description of a sensor declaration, for the parameters `P` of a source, which derive from it:
+/// they are what the source declares of its sensor in each scan.
 template <class P>
 [[nodiscard]] constexpr auto sensor_fields() {
   return std::tuple{
@@ -26,11 +46,14 @@ template <class P>
                        "error common to all ranges, by its standard deviation; 0 when unknown"),
       field<P, double>(&P::flatness_stddev, "flatness_stddev", "m", 0.0, 1.0,
                        "how far walls are off a line by themselves, over lengths that many rays "
-                       "share")};
+                       "share"),
+      field<P, NoiseOrigin>(&P::noise, "noise",
+                            "declared: these figures are the noise; estimated: line fitting begins "
+                            "with them and learns the noise from the scans")};
 }
 
 namespace detail {
-struct SensorParameters : SensorModel {
+struct SensorParameters : SensorDeclaration {
   static constexpr auto fields() { return sensor_fields<SensorParameters>(); }
 };
 }  // namespace detail

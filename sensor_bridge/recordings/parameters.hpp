@@ -40,7 +40,7 @@ namespace quoin::sensor_bridge {
 /// Parameters of the publisher of recorded scans. Limits and field of view default to the SICK
 /// LMS that most CARMEN logs were taken with: 180 degrees, readings of 80 m and more mean "no
 /// return".
-struct ReplayParameters : SensorModel {
+struct ReplayParameters : SensorDeclaration {
   std::string path;
   ScanFormat format = ScanFormat::automatic;
   double speed = 1.0;  ///< factor

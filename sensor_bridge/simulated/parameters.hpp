@@ -15,7 +15,7 @@ namespace quoin::sensor_bridge {
 /// Parameters of the simulated sensor. It has the noise of range and bearing that it declares. The
 /// defaults are an RPLIDAR S1 at 10 Hz: 9200 samples a second, range noise of 1 cm, bearings in
 /// steps of 0.391 deg.
-struct SimulatedParameters : SensorModel {
+struct SimulatedParameters : SensorDeclaration {
   std::string environment = "domestic_room";
   double rate_hz = 10.0;                     ///< [Hz]
   std::int64_t points = 920;                 ///< rays per revolution

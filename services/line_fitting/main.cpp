@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/fitting/fitters.hpp"
+#include "services/line_fitting/estimated_noise.hpp"
 #include "services/line_fitting/kind.hpp"
 #include "services/line_fitting/scatter_report.hpp"
 #include "services/runtime/process/run_node.hpp"
@@ -20,13 +21,14 @@ runtime::Method make(const std::string& method, const ParameterSettings& paramet
   const bool scales = mode == enum_name(CovarianceMode::propagated);
   auto points = std::make_shared<Points>();
   auto scatter = std::make_shared<ScatterReport>(fit);
-  return {.handle = [fit, mode, scales, points, scatter](runtime::Work& work) {
+  auto noise = std::make_shared<EstimatedNoise>();
+  return {.handle = [fit, mode, scales, points, scatter, noise](runtime::Work& work) {
     const msg::Segments& in = work.input<msg::Segments>();
     msg::Lines& out = work.output<msg::Lines>();
     if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
-    const SensorModel sensor = topics::sensor_model(in.sensor_model());
     convert_ordered(in.bearings(), in.ranges(), *points);
-    out.sensor_model(in.sensor_model());
+    const SensorModel sensor = noise->model_for(in);
+    noise->declare(in, sensor, out);
     out.covariance_mode(mode);
     out.lines().clear();
     out.failures().clear();
@@ -47,6 +49,9 @@ runtime::Method make(const std::string& method, const ParameterSettings& paramet
       }
     }
     scatter->report(work);
+    noise->add(in, *points);
+    noise->report(
+        [&work](const char* name, const std::string& value) { work.set_diagnostic(name, value); });
     work.fail(out.failures().size());
   }};
 }

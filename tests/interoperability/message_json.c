@@ -48,6 +48,7 @@ static void write_sensor_model(JsonWriter* writer, const quoin_msg_SensorModel* 
   json_double(writer, "range_bias_stddev", model->range_bias_stddev);
   json_double(writer, "range_stddev_per_metre", model->range_stddev_per_metre);
   json_double(writer, "flatness_stddev", model->flatness_stddev);
+  json_bool(writer, "estimated", model->estimated);
   json_end_object(writer);
 }
 

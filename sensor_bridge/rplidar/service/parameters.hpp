@@ -12,7 +12,7 @@
 namespace quoin::sensor_bridge::rplidar {
 
 /// Parameters of the RPLIDAR bridge; names as in the vendor's ROS driver where it has them.
-struct RplidarParameters : SensorModel {
+struct RplidarParameters : SensorDeclaration {
   std::string serial_port = "auto";
   std::int64_t serial_baudrate = 0;  ///< [bit/s]; 0 finds it
   std::string scan_mode;             ///< empty for the one that the device calls typical

@@ -37,6 +37,7 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
                                                {"range_bias_stddev", "0.004"},
                                                {"range_stddev_per_metre", "1 %"},
                                                {"flatness_stddev", "2 mm"},
+                                               {"noise", "estimated"},
                                                {"frame", "front_laser"}}),
                                 folder.path());
   RecordingSource source;
@@ -54,6 +55,7 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
   EXPECT_EQ(scan.sensor_model().range_bias_stddev(), 0.004);
   EXPECT_EQ(scan.sensor_model().range_stddev_per_metre(), 0.01);
   EXPECT_EQ(scan.sensor_model().flatness_stddev(), 0.002);
+  EXPECT_TRUE(scan.sensor_model().estimated());
   EXPECT_EQ(scan.range_min(), 0.05F);
   EXPECT_EQ(scan.range_max(), 80.0F);
   EXPECT_EQ(scan.duration(), 0.0F);

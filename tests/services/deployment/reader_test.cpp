@@ -183,14 +183,15 @@ version: 1
 services:
   - name: front
     kind: simulated
-    sensor: {range_stddev: 2 mm, range_stddev_per_metre: 1 %, flatness_stddev: 3 mm}
+    sensor: {range_stddev: 2 mm, range_stddev_per_metre: 1 %, flatness_stddev: 3 mm, noise: estimated}
     parameters: {seed: 3}
 )",
                                                          "robot.yaml");
   EXPECT_THAT(deployment.service("front").parameters,
               ElementsAre(ParameterSetting{"seed", "3"}, ParameterSetting{"range_stddev", "2 mm"},
                           ParameterSetting{"range_stddev_per_metre", "1 %"},
-                          ParameterSetting{"flatness_stddev", "3 mm"}));
+                          ParameterSetting{"flatness_stddev", "3 mm"},
+                          ParameterSetting{"noise", "estimated"}));
 }
 
 TEST(Reader, ThePresetForAllMayBeWrittenLast) {

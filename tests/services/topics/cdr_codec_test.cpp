@@ -45,7 +45,7 @@ const char* const header_json =
 
 const char* const model_json =
     R"("sensor_model":{"range_stddev":0.01,"bearing_stddev":0.002,"range_bias_stddev":0.0,)"
-    R"("range_stddev_per_metre":0.0125,"flatness_stddev":0.0})";
+    R"("range_stddev_per_metre":0.0125,"flatness_stddev":0.0,"estimated":false})";
 
 void fill(msg::SensorModel& model) {
   model.range_stddev(0.01);
