@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "core/fitting/fit.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
@@ -17,6 +18,8 @@ namespace {
 using Variances = Eigen::Vector3d;  // in the order of NoiseFactor
 using Weights = Eigen::Matrix3d;
 
+// Of the variance of the walls' own deviation, what that of a range is at least.
+constexpr double least_range_share = 0.25;
 constexpr double smallest_variance = 1e-10;  // [m^2] (10 um)^2: no range finder is better
 
 Variances variances_of(const SensorModel& model) {
@@ -25,19 +28,20 @@ Variances variances_of(const SensorModel& model) {
           model.bearing_stddev * model.bearing_stddev};
 }
 
-double variance_of(const ResidualBlock& block, const Variances& variances) {
-  double sum = 0.0;
+/// `flatness` [m^2] is the variance of a wall's own deviation from its line.
+double variance_of(const ResidualBlock& block, const Variances& variances, double flatness) {
+  double sum = flatness;
   for (std::size_t k = 0; k < noise_factor_count; ++k) {
     sum += block.factors[k] * variances[static_cast<Eigen::Index>(k)];
   }
   return std::max(sum, smallest_variance);
 }
 
-double chi_square(const ResidualTable& table, const WallResiduals& wall,
-                  const Variances& variances) {
+double chi_square(const ResidualTable& table, const WallResiduals& wall, const Variances& variances,
+                  double flatness) {
   double sum = 0.0;
   for (const ResidualBlock& block : table.blocks(wall)) {
-    sum += block.squared / variance_of(block, variances);
+    sum += block.squared / variance_of(block, variances, flatness);
   }
   return sum;
 }
@@ -72,7 +76,7 @@ Variances nonnegative_minimum(const Weights& a, const Variances& b) {
 /// range and incidence: least absolute deviations, by reweighting. Half of the walls may be
 /// anything without an effect that grows with how far off they are.
 Variances ray_variances(const ResidualTable& table, std::span<const WallResiduals> walls,
-                        Variances variances) {
+                        Variances variances, double flatness) {
   constexpr int most_iterations = 100;
   constexpr double nearest = 0.05;  // deviations below it count alike, so that weights are finite
   constexpr double enough = 1e-5;
@@ -84,14 +88,15 @@ Variances ray_variances(const ResidualTable& table, std::span<const WallResidual
     for (const WallResiduals& wall : walls) {
       const double freedom = wall.points - 2.0;
       const double expected = median_chi_square(freedom);
-      const double relative = chi_square(table, wall, variances) / expected - 1.0;
+      const double relative = chi_square(table, wall, variances, flatness) / expected - 1.0;
       const double weight = 1.0 / (std::sqrt(freedom) * std::max(std::abs(relative), nearest));
       for (const ResidualBlock& block : table.blocks(wall)) {
-        const double variance = variance_of(block, variances);
+        const double variance = variance_of(block, variances, flatness);
         const Variances factors(block.factors[0], block.factors[1], block.factors[2]);
         const double w = weight / (variance * variance);
         information += w * block.points * factors * factors.transpose();
-        right += w * (wall.points / expected) * block.squared * factors;
+        const double squared = wall.points / expected * block.squared;
+        right += w * (squared - block.points * flatness) * factors;
       }
     }
     const Variances units = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -131,14 +136,23 @@ constexpr double chi_square_of_two_95 = 5.9915;
 constexpr double most_of_one = 6.6349;
 constexpr double mean_of_one = 0.9819;
 
-/// With it the 95 % ellipses of the halves of walls hold 95 % of their differences.
-double flatness(std::span<const WallResiduals> walls) {
+/// With it the 95 % ellipses of the halves of walls hold 95 % of their differences. What residuals
+/// refute is scaled by them, as it is where lines are fitted: noisy walls are not uneven ones.
+double flatness(const ResidualTable& table, std::span<const WallResiduals> walls,
+                const SensorModel& model) {
+  std::vector<double> scales;
+  for (const WallResiduals& wall : walls) {
+    LineEstimate unused;
+    scales.push_back(scale_to_residuals(unused, chi_square(table, wall, model),
+                                        static_cast<std::size_t>(wall.points)));
+  }
   return added_stddev(largest_added, [&](double stddev) {
     double excess = 0.0;
-    for (const WallResiduals& wall : walls) {
-      if (!wall.halves) continue;
-      const LineDifference& halves = *wall.halves;
-      const Eigen::Matrix2d covariance = halves.noise + stddev * stddev * halves.unevenness;
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      if (!walls[k].halves) continue;
+      const LineDifference& halves = *walls[k].halves;
+      const Eigen::Matrix2d covariance =
+          scales[k] * halves.noise + stddev * stddev * halves.unevenness;
       const double squared = halves.difference.dot(covariance.inverse() * halves.difference);
       excess += squared > chi_square_of_two_95 ? 0.95 : -0.05;
     }
@@ -175,21 +189,25 @@ double median_chi_square(double freedom) {
 }
 
 double variance_of(const ResidualBlock& block, const SensorModel& model) {
-  return variance_of(block, variances_of(model));
+  return variance_of(block, variances_of(model), model.flatness_stddev * model.flatness_stddev);
 }
 
 double chi_square(const ResidualTable& table, const WallResiduals& wall, const SensorModel& model) {
-  return chi_square(table, wall, variances_of(model));
+  return chi_square(table, wall, variances_of(model),
+                    model.flatness_stddev * model.flatness_stddev);
 }
 
 NoiseComponents find_components(const ResidualTable& table, std::span<const WallResiduals> walls,
                                 const SensorModel& start) {
   NoiseComponents components;
-  const Variances variances = ray_variances(table, walls, variances_of(start));
+  components.flatness_stddev = flatness(table, walls, start);
+  const double uneven = components.flatness_stddev * components.flatness_stddev;
+  Variances variances = ray_variances(table, walls, variances_of(start), uneven);
+  // Rays without noise would outweigh all others of their wall.
+  variances[of_range] = std::max(variances[of_range], least_range_share * uneven);
   components.range_stddev = std::sqrt(variances[of_range]);
   components.range_stddev_per_metre = std::sqrt(variances[of_growth]);
   components.bearing_stddev = std::sqrt(variances[of_bearing]);
-  components.flatness_stddev = flatness(walls);
   components.interlace_stddev = interlacing(walls);
   components.neighbour_correlation = correlation(walls);
   return components;

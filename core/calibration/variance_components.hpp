@@ -15,7 +15,8 @@ namespace quoin {
                                               std::span<const WallResiduals> walls,
                                               const SensorModel& start);
 
-/// Variance [m^2] of the distance from the line that the model gives the points of a block.
+/// Variance [m^2] of the distance from the line that the model gives the points of a block, that by
+/// the flatness of walls included.
 [[nodiscard]] double variance_of(const ResidualBlock& block, const SensorModel& model);
 
 /// Sum over a wall of squared residuals over their variances.

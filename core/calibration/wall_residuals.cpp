@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t points_of_block = 8;
 
-/// Covariance of (alpha, r) as one of (direction, offset about a point `along` [m] the line).
-Eigen::Matrix2d about(const Eigen::Matrix2d& covariance, double along) {
-  Eigen::Matrix2d shift;
-  shift << 1.0, 0.0, -along, 1.0;
-  return shift * covariance * shift.transpose();
-}
-
 struct Part {
   Line line;
   Eigen::Matrix2d noise;
@@ -44,8 +37,10 @@ std::optional<Part> part_of(const PointsView& points, const SensorModel& sensor,
   const double along = line.along(middle.x(), middle.y());
   const double length = std::abs(last_along - first_along);
   if (!(length > 0.0)) return std::nullopt;
-  return Part{fit.estimate.line, about(fit.estimate.covariance, along),
-              about(unevenness_about_middle(length), along - 0.5 * (first_along + last_along))};
+  const LineEstimate unevenness{fit.estimate.line, flatness_covariance(1.0, length),
+                                0.5 * (first_along + last_along)};
+  return Part{fit.estimate.line, fit.estimate.about(along).covariance,
+              unevenness.about(along).covariance};
 }
 
 std::optional<LineDifference> compare(const PointsView& first, const PointsView& second,
@@ -89,12 +84,6 @@ void compare_alternate(const PointsView& points, std::span<const double> residua
 }
 
 }  // namespace
-
-Eigen::Matrix2d unevenness_about_middle(double length) {
-  Eigen::Matrix2d result;
-  result << 12.0 / (length * length), 0.0, 0.0, 1.0;
-  return result;
-}
 
 void ResidualTable::clear() {
   walls_.clear();

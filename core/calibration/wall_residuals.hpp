@@ -41,10 +41,6 @@ struct LineDifference {
   Eigen::Matrix2d unevenness;  ///< what flatness_stddev^2 adds to it, for 1 m^2
 };
 
-/// The covariance of (direction, offset about the middle) of a wall of this length [m] that its own
-/// unevenness adds, for a flatness_stddev of 1 m: see SensorModel.
-[[nodiscard]] Eigen::Matrix2d unevenness_about_middle(double length);
-
 /// A wall as it is seen about its own line.
 struct WallResiduals {
   std::size_t first_block = 0, block_count = 0;

@@ -118,7 +118,6 @@ TEST_F(NoiseEstimatorTest, FindsWhatGrowsWithTheRange) {
 }
 
 TEST_F(NoiseEstimatorTest, FindsHowUnevenWallsAre) {
-  // What is uneven within the wall counts as noise of its rays, too, which leaves a little less.
   for (const double unevenness : {0.003, 0.01}) {
     const NoiseEstimate found = estimate({.unevenness = unevenness});
     EXPECT_NEAR(found.components.flatness_stddev, unevenness, 0.15 * unevenness);
