@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/circles/circle.hpp"
 #include "core/circles/circle_fit.hpp"
-#include "core/fitting/circle.hpp"
 
 namespace quoin {
 

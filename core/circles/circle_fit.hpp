@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "core/fitting/circle.hpp"
+#include "core/circles/circle.hpp"
 #include "core/parameters/parameter.hpp"
 #include "core/sensor/points.hpp"
 

@@ -24,20 +24,16 @@ struct LineAt {
   Eigen::Matrix2d covariance;
 
   LineAt(const LineEstimate& estimate, const Eigen::Vector2d& point, double near_alpha) {
-    const bool turned = std::abs(normalized_angle(estimate.line.alpha - near_alpha)) > 0.5 * pi;
-    alpha = estimate.line.alpha + (turned ? pi : 0.0);
-    const double r = turned ? -estimate.line.r : estimate.line.r;
-    const Eigen::Vector2d normal(std::cos(alpha), std::sin(alpha));
-    offset = r - normal.dot(point);
-    const double along = normal.x() * point.y() - normal.y() * point.x();
-    Eigen::Matrix2d jacobian;  // of (alpha, offset) by (alpha, r)
-    jacobian << 1.0, 0.0, -along, 1.0;
-    Eigen::Matrix2d of_normal_form = estimate.covariance;
-    if (turned) {
-      of_normal_form(0, 1) = -of_normal_form(0, 1);
-      of_normal_form(1, 0) = -of_normal_form(1, 0);
+    const Eigen::Vector2d normal = estimate.line.normal();
+    alpha = estimate.line.alpha;
+    offset = estimate.line.r - normal.dot(point);
+    covariance = estimate.about(normal.x() * point.y() - normal.y() * point.x()).covariance;
+    if (std::abs(normalized_angle(alpha - near_alpha)) > 0.5 * pi) {
+      alpha += pi;
+      offset = -offset;
+      covariance(0, 1) = -covariance(0, 1);
+      covariance(1, 0) = -covariance(1, 0);
     }
-    covariance = jacobian * of_normal_form * jacobian.transpose();
   }
 };
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/fitting/circle.hpp"
+#include "core/circles/circle.hpp"
 #include "core/fitting/orthogonal.hpp"
 #include "core/segmentation/block_test.hpp"
 
@@ -37,11 +37,16 @@ class ArcFinder {
         flatness_(flatness),
         floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
 
-  /// Whether a piece that is crooked is bent like a circle.
-  [[nodiscard]] bool is_arc(const Piece& piece, const BlockMeans& blocks) const {
+  /// Whether a run that is not straight is bent like a circle.
+  [[nodiscard]] bool is_arc(const Segment& run) const {
+    return circle_explains(run, chi_square_of_line(run) - clearly_better);
+  }
+
+  /// The same, with a cheap test first.
+  [[nodiscard]] bool is_arc(const Segment& run, const BlockMeans& blocks) const {
     const std::span<const BlockMean> means = blocks.means();
     return are_on_circle(means.first(means.size() / 2), means.subspan(means.size() / 2)) &&
-           circle_explains(piece.segment, chi_square_of_line(piece.segment) - clearly_better);
+           is_arc(run);
   }
 
   /// Whether both are of one circle.
@@ -200,7 +205,7 @@ struct ThinSearch {
       const Segment run{first, next};
       first = next;
       if (run.size() < fewest_on_arc || !is_convex(points, run)) continue;
-      if (finder.is_arc({run})) arcs.push_back(run);
+      if (finder.is_arc(run)) arcs.push_back(run);
     }
   }
 };
@@ -225,7 +230,7 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
       continue;
     }
     pieces[kept] = piece;
-    if (own.test.crooked && finder.is_arc(piece, own.means)) make_round(pieces[kept]);
+    if (own.test.crooked && finder.is_arc(piece.segment, own.means)) make_round(pieces[kept]);
     ++kept;
   }
   pieces.resize(kept);
@@ -262,7 +267,7 @@ void ThinThings::find(const PointsView& scan, const SensorModel& sensor,
   for (const Segment& arc : found.arcs) {
     if (kept > 0 && found.arcs[kept - 1].end == arc.begin) {
       const Segment both{found.arcs[kept - 1].begin, arc.end};
-      if (finder.is_arc({both})) {
+      if (finder.is_arc(both)) {
         found.arcs[kept - 1] = both;
         continue;
       }

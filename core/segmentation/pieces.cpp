@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t left_out_at_ends = 3;
 
+/// Of the points of a segment but for those at its ends.
+Moments inner_moments(const PointsView& points, const Segment& segment) {
+  const std::size_t margin = std::min(left_out_at_ends, segment.size() / 4);
+  return inverse_range_moments(points, segment.begin + margin, segment.end - margin);
+}
+
 std::optional<NormalLine> line_of(const Moments& moments) {
   const auto solution = solve_algebraic(moments);
   if (!solution || !(solution->x.squaredNorm() > 0.0)) return std::nullopt;
@@ -52,7 +58,8 @@ constexpr double parallel_sine = 0.05;  // lines that meet at less than 3 deg ha
 constexpr double reach = 4.0;
 
 struct Intersection {
-  double x, y;  // [m]
+  double x, y;            // [m]
+  double spread_squared;  // [m^2] along the walls, of two standard deviations
 };
 
 /// The corner of two neighbouring pieces, or nothing when there is none near.
@@ -63,8 +70,13 @@ std::optional<Intersection> corner_of(const PointsView& points, const Piece& fir
   const NormalLine& b = *second.line;
   const double sine = a.normal_x * b.normal_y - a.normal_y * b.normal_x;
   if (std::abs(sine) <= parallel_sine) return std::nullopt;
+  // At its end a line is off by twice the standard deviation of the mean of its points.
+  const double means = 1.0 / static_cast<double>(first.segment.size()) +
+                       1.0 / static_cast<double>(second.segment.size());
+  const double deviations = 4.0 / deviations_in_tolerance;
   const Intersection p{(a.offset * b.normal_y - b.offset * a.normal_y) / sine,
-                       (b.offset * a.normal_x - a.offset * b.normal_x) / sine};
+                       (b.offset * a.normal_x - a.offset * b.normal_x) / sine,
+                       deviations * deviations * tolerance.range * means / (sine * sine)};
   const auto near = [&](std::size_t i) {
     const double dx = points.x[i] - p.x;
     const double dy = points.y[i] - p.y;
@@ -77,6 +89,13 @@ std::optional<Intersection> corner_of(const PointsView& points, const Piece& fir
 /// Positive while point `i` comes before the direction of `p`.
 double before(const PointsView& points, std::size_t i, const Intersection& p) {
   return points.cosine[i] * p.y - points.sine[i] * p.x;
+}
+
+/// Whether noise decides on which wall the point at the end of a piece seems to be.
+bool is_undecided(const PointsView& points, std::size_t i, const Intersection& p) {
+  const double dx = points.x[i] - p.x;
+  const double dy = points.y[i] - p.y;
+  return dx * dx + dy * dy < p.spread_squared;
 }
 
 /// For a few points: those that a boundary is moved over.
@@ -106,8 +125,14 @@ void move_boundary(const PointsView& points, std::size_t min_points, const Toler
   if (!all_near(points, to_second, *second.line, tolerance)) return;
   first.segment.end = boundary;
   second.segment.begin = boundary;
-  if (first.segment.size() > min_points) --first.segment.end;
-  if (second.segment.size() > min_points) ++second.segment.begin;
+  Segment& a = first.segment;
+  Segment& b = second.segment;
+  if (a.size() > min_points) --a.end;
+  if (b.size() > min_points) ++b.begin;
+  while (a.size() > min_points && is_undecided(points, a.end - 1, *p)) --a.end;
+  while (b.size() > min_points && is_undecided(points, b.begin, *p)) ++b.begin;
+  first.ends_at_corner = true;
+  second.begins_at_corner = true;
 }
 
 /// Leaves out what lies beyond the corner across the seam, and the point nearest to it on either
@@ -123,6 +148,8 @@ void trim_at_seam(const PointsView& points, const Tolerance& tolerance, Piece& l
   while (begin < highest && before(points, begin, *p) > 0.0) ++begin;
   if (end > lowest) --end;
   if (begin < highest) ++begin;
+  last.ends_at_corner = true;
+  first.begins_at_corner = true;
 }
 
 }  // namespace
@@ -152,9 +179,7 @@ void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
     if (pieces[i].round || pieces[i].line) continue;
     const bool at_seam = i == 0 || i + 1 == pieces.size();
     if (!at_seam && !pieces[i].joined && !pieces[i + 1].joined) continue;
-    const Segment& segment = pieces[i].segment;
-    const std::size_t margin = std::min(left_out_at_ends, segment.size() / 4);
-    pieces[i].moments = inverse_range_moments(points, segment.begin + margin, segment.end - margin);
+    pieces[i].moments = inner_moments(points, pieces[i].segment);
     pieces[i].line = line_of(pieces[i].moments);
   }
 }

@@ -21,6 +21,8 @@ struct Piece {
   Moments moments{};    ///< of the inner points, with the weights 1 / range^2
   std::optional<NormalLine> line{};  ///< algebraic, cheap; both are filled by `fit_pieces`
   bool round = false;                ///< no line, but an arc
+  /// `refine_boundaries` has left out what is nearest to the corner.
+  bool begins_at_corner = false, ends_at_corner = false;
 };
 
 /// Points that a piece keeps when others are taken from it.
@@ -46,7 +48,8 @@ void merge_collinear(const PointsView& points, const Tolerance& tolerance,
 /// far from a line, that is also for its noise, and is a few points off the corner: one wall's fit
 /// then contains points of the other. The boundary goes to the bearing of the intersection, and the
 /// point nearest to the corner on either side is left out, because noise decides which wall it
-/// seems to be on. No point ends up farther than the tolerance from the line it was moved to.
+/// seems to be on, with those that are nearer to it than two standard deviations of where it is. No
+/// point ends up farther than the tolerance from the line it was moved to.
 ///
 /// `closed` says that the last piece and the first are joined too, across the seam; there points
 /// are only left out. The pieces have been fitted.

@@ -91,6 +91,18 @@ double straight_length_squared(const PointsView& points, const Segment& segment,
                                                                                           : squared;
 }
 
+/// Without its first and its last point, where they are not left out at a corner already: a ray
+/// that grazes an edge returns from between two surfaces, and one point of something too small for
+/// a piece of its own is enough to turn a short line by more than its covariance says.
+Segment without_ends(const Piece& piece, const SegmentationParameters& parameters) {
+  Segment segment = piece.segment;
+  const auto enough = static_cast<std::size_t>(parameters.min_points) + 2;
+  if (!parameters.refine || segment.size() < enough) return segment;
+  if (!piece.begins_at_corner) ++segment.begin;
+  if (!piece.ends_at_corner) --segment.end;
+  return segment;
+}
+
 /// Appends the round pieces to the arcs and to the segments those that are usable lines:
 /// - of `min_points` points and `min_length`; half of that beside a joined piece that is long
 ///   enough, because small pieces with nothing beside them are mostly of clutter,
@@ -105,7 +117,7 @@ void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
   const double enough = parameters.min_length * parameters.min_length;
   double before = 0.0;   // squared length of the piece before
   bool pending = false;  // it is short and waits for a long one beside it
-  Segment last;
+  const Piece* last = nullptr;
   for (const Piece& piece : pieces) {
     if (piece.round) {
       found.arcs.push_back(piece.segment);
@@ -119,11 +131,13 @@ void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
                                  : 0.0;
     const bool is_long = length > 0.0 && length >= enough;
     const bool is_half = length > 0.0 && 4.0 * length >= enough;
-    if (pending && piece.joined && is_long) found.segments.push_back(last);
+    if (pending && piece.joined && is_long)
+      found.segments.push_back(without_ends(*last, parameters));
     const bool supported = piece.joined && before > 0.0 && before >= enough;
-    if (is_long || (is_half && supported)) found.segments.push_back(piece.segment);
+    if (is_long || (is_half && supported))
+      found.segments.push_back(without_ends(piece, parameters));
     pending = is_half && !is_long && !supported;
-    last = piece.segment;
+    last = &piece;
     before = length;
   }
 }

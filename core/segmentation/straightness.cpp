@@ -162,6 +162,7 @@ bool Straightener::is_part(const PointsView& points, const Wall& wall,
   const Segment& own = wall.piece.segment;
   const double enough = 0.5 * parameters_.min_length;
   if (squared_distance(points, own.begin, own.end - 1) < enough * enough) return true;
+  if (wall.piece.round) return false;
   std::size_t beyond = 0;
   for (std::size_t i = own.begin; i < own.end; ++i) {
     beyond += is_beyond(line, points, i, tolerance_) ? 1 : 0;
@@ -182,9 +183,8 @@ std::optional<std::size_t> Straightener::find_partner(const PointsView& points, 
     both += wall.moments;
     const NormalLine line = orthogonal_line(both).line;
     const std::span<const Wall> between = last.subspan(1);
-    if (std::all_of(between.begin(), between.end(), [&](const Wall& each) {
-          return !each.piece.round && is_part(points, each, line);
-        })) {
+    if (std::all_of(between.begin(), between.end(),
+                    [&](const Wall& each) { return is_part(points, each, line); })) {
       return passed;
     }
     outside_.resize(known);

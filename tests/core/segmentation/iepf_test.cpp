@@ -95,12 +95,12 @@ TEST(Iepf, BreaksAtGapsOfTheBreakpointAngle) {
   }
   Segmentation found;
   Iepf()(left, SensorModel{}, found);
-  EXPECT_EQ(found.segments, (std::vector<Segment>{{0, 60}, {60, 120}}));
+  EXPECT_EQ(found.segments, (std::vector<Segment>{{1, 59}, {61, 119}}));
   Iepf::Parameters wide;
   wide.breakpoint_angle = 0.3;
   wide.max_line_gap = 0.5;
   Iepf{wide}(left, SensorModel{}, found);
-  EXPECT_EQ(found.segments, (std::vector<Segment>{{0, 120}}));
+  EXPECT_EQ(found.segments, (std::vector<Segment>{{1, 119}}));
 }
 
 TEST(Iepf, TakesAnyNumberOfPoints) {

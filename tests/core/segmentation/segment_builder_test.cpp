@@ -34,7 +34,7 @@ Points noisy_wall() {
 
 TEST(SegmentBuilder, MergesWhatIsOneLine) {
   const std::vector<Segment> cut{{0, 40}, {40, 75}, {75, 120}};
-  EXPECT_THAT(build(noisy_wall(), cut), ElementsAre(Segment{0, 120}));
+  EXPECT_THAT(build(noisy_wall(), cut), ElementsAre(Segment{1, 119}));
   SegmentationParameters parameters;
   parameters.merge = false;
   parameters.refine = false;
@@ -63,9 +63,9 @@ TEST(SegmentBuilder, CountsPointsOfNoReturn) {
 TEST(SegmentBuilder, LeavesOutWhatNoPieceHas) {
   SegmentationParameters parameters;
   parameters.merge = false;
-  EXPECT_THAT(build(noisy_wall(), {{5, 110}}, parameters), ElementsAre(Segment{5, 110}));
+  EXPECT_THAT(build(noisy_wall(), {{5, 110}}, parameters), ElementsAre(Segment{6, 109}));
   // What is on its wall belongs to it.
-  EXPECT_THAT(build(noisy_wall(), {{5, 110}}), ElementsAre(Segment{0, 120}));
+  EXPECT_THAT(build(noisy_wall(), {{5, 110}}), ElementsAre(Segment{1, 119}));
   EXPECT_THAT(build(noisy_wall(), {}), IsEmpty());
 }
 
@@ -79,9 +79,9 @@ TEST(SegmentBuilder, MovesTheBoundaryToTheCorner) {
     ranges.push_back(std::min(2.0 / std::cos(bearing), 2.0 / std::sin(bearing)));
   }
   const Points points = points_from(bearings, ranges);
-  // The corner is between points 99 and 100; one point on either side is left out.
+  // The corner is between points 99 and 100; one point on either side is left out, as at the ends.
   EXPECT_THAT(build(points, {{0, 104}, {104, 200}}),
-              ElementsAre(Segment{0, 99}, Segment{101, 200}));
+              ElementsAre(Segment{1, 99}, Segment{101, 199}));
 }
 
 /// Part of a pillar at 2 m distance.

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "core/fitting/circle.hpp"
+#include "core/circles/circle.hpp"
 #include "tests/core/wall_points.hpp"
 
 namespace quoin {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/circle.hpp"
+#include "core/circles/circle.hpp"
 
 #include <cmath>
 #include <random>
