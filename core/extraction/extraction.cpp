@@ -25,14 +25,13 @@ void Extraction::run(const ScanView& scan, const SensorModel& segmentation,
   failures_.clear();
   for (const Segment& segment : found_.segments) {
     const PointsView points = points_.view().subview(segment.begin, segment.end);
-    FitResult fit = fitter_(points, fitting);
+    const FitResult fit = fitter_(points, fitting);
     if (!fit.ok()) {
       failures_.push_back(fit.failure);
       continue;
     }
-    scale_to_residuals(fit.estimate, chi_square(fit.estimate.line, points, fitting), points.size());
-    lines_.push_back(line_segment(fit.estimate, fit.normal, points));
-    add_flatness(lines_.back(), fitting.flatness_stddev);
+    const double residuals = chi_square(fit.estimate.line, points, fitting);
+    lines_.push_back(true_segment(fit, points, fitting, residuals));
     fitted_.push_back(segment);
   }
   finder_(lines_, fitting.range_bias_stddev, corners_);

@@ -95,4 +95,13 @@ void add_flatness(LineSegment& segment, double flatness_stddev) {
       flatness_covariance(flatness_stddev, (segment.end - segment.start).norm());
 }
 
+LineSegment true_segment(const FitResult& fit, const PointsView& points, const SensorModel& sensor,
+                         double chi_square) {
+  LineEstimate estimate = fit.estimate;
+  scale_to_residuals(estimate, chi_square, points.size());
+  LineSegment segment = line_segment(estimate, fit.normal, points);
+  add_flatness(segment, sensor.flatness_stddev);
+  return segment;
+}
+
 }  // namespace quoin

@@ -129,4 +129,9 @@ double scale_to_residuals(LineEstimate& estimate, double chi_square, std::size_t
 /// Adds it to the covariance of the segment, which is about its mid-point.
 void add_flatness(LineSegment& segment, double flatness_stddev);
 
+/// The segment of a line with a covariance that its points do not refute: scaled to its residuals,
+/// with the flatness of walls. `chi_square` is that of the line.
+[[nodiscard]] LineSegment true_segment(const FitResult& fit, const PointsView& points,
+                                       const SensorModel& sensor, double chi_square);
+
 }  // namespace quoin

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/calibration/noise_estimator.hpp"
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "core/statistics/order_statistics.hpp"
 
@@ -41,11 +41,12 @@ std::optional<double> mean_range_error(const PointsView& points, const Eigen::Ve
 /// on.
 std::optional<double> range_error(const PointsView& points, const Segmentation& found,
                                   const SensorModel& sensor, double distance) {
+  static const auto fitter = Fitters::make<Fitter>(Fitters::descriptions().front().name, {});
   std::optional<double> best;
   for (const Segment& wall : found.segments) {
     if (wall.size() < fewest_points) continue;
     const PointsView view = points.subview(wall.begin, wall.end);
-    const FitResult fit = InverseRange()(view, sensor);
+    const FitResult fit = fitter(view, sensor);
     if (!fit.ok() || std::abs(fit.estimate.line.r - distance) > largest_bias) continue;
     const LineSegment line = line_segment(fit.estimate, fit.normal, view);
     // The foot of the perpendicular is between the ends.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <idl/Lines.h>
 #include <idl/Segments.h>
 #include <string>
@@ -38,52 +37,42 @@ class EstimatedNoise {
     out.sensor_model().estimated(in.sensor_model().estimated() && noise_.components().has_value());
   }
 
-  /// Takes what a message shows of the noise; nothing where it is declared.
-  void add(const msg::Segments& in, const PointsView& points) {
+  /// Takes what a message shows of the noise; nothing where it is declared. Sets what is new as
+  /// diagnostics of `work`, which is a runtime::Work.
+  template <class Work>
+  void add(const msg::Segments& in, const PointsView& points, Work& work) {
     if (!declared_.estimated()) return;
     walls_.clear();
     for (const msg::IndexRange& wall : in.segments()) walls_.push_back({wall.begin(), wall.end()});
     const RunningNoise::Event event = noise_.add(points, walls_);
     if (event == RunningNoise::Event::none) return;
-    renewed_ = true;
-    if (event == RunningNoise::Event::jump) {
-      ++jumps_;
-      last_jump_ = topics::sequence_number(in.header());
-    }
-  }
-
-  /// Calls `set(name, value)` for entries of the heartbeat that are new.
-  template <class Set>
-  void report(const Set& set) {
-    if (!renewed_) return;
-    renewed_ = false;
-    const auto text = [](double value, const char* unit) {
-      std::string digits = std::to_string(value);
-      digits.resize(digits.find('.') + 4);
-      return digits + unit;
-    };
-    const NoiseComponents& found = *noise_.components();
-    set("Noise", "range " + text(1e3 * found.range_stddev, " mm") + ", growing " +
-                     text(1e3 * found.range_stddev_per_metre, " mm/m") + ", bearing " +
-                     text(1e3 * found.bearing_stddev, " mrad") + ", flatness " +
-                     text(1e3 * found.flatness_stddev, " mm"));
-    if (jumps_ > 0) {
-      set("Noise Jumps",
-          std::to_string(jumps_) + ", the last at scan " + std::to_string(last_jump_));
-    }
+    work.set_diagnostic("Noise", to_text(*noise_.components()));
+    if (event != RunningNoise::Event::jump) return;
+    ++jumps_;
+    work.set_diagnostic("Noise Jumps", std::to_string(jumps_) + ", the last at scan " +
+                                           std::to_string(topics::sequence_number(in.header())));
   }
 
   EstimatedNoise() = default;
 
  private:
+  static std::string to_text(const NoiseComponents& found) {
+    const auto text = [](double value, const char* unit) {
+      std::string digits = std::to_string(1e3 * value);
+      digits.resize(digits.find('.') + 4);
+      return digits + unit;
+    };
+    return "range " + text(found.range_stddev, " mm") + ", growing " +
+           text(found.range_stddev_per_metre, " mm/m") + ", bearing " +
+           text(found.bearing_stddev, " mrad") + ", flatness " + text(found.flatness_stddev, " mm");
+  }
+
   explicit EstimatedNoise(const msg::SensorModel& declared) : declared_(declared) {}
 
   msg::SensorModel declared_;
   RunningNoise noise_;
   std::vector<Segment> walls_;
   std::size_t jumps_ = 0;
-  std::uint64_t last_jump_ = 0;  // number of the scan
-  bool renewed_ = false;         // since the last report
 };
 
 }  // namespace quoin

@@ -18,11 +18,11 @@ namespace {
 runtime::Method make(const std::string& method, const ParameterSettings& parameters) {
   const auto fit = Fitters::make<Fitter>(method, parameters);
   const std::string mode = Fitters::setting(method, parameters, "covariance");
-  const bool scales = mode == enum_name(CovarianceMode::propagated);
+  const bool propagated = mode == enum_name(CovarianceMode::propagated);
   auto points = std::make_shared<Points>();
   auto scatter = std::make_shared<ScatterReport>(fit);
   auto noise = std::make_shared<EstimatedNoise>();
-  return {.handle = [fit, mode, scales, points, scatter, noise](runtime::Work& work) {
+  return {.handle = [fit, mode, propagated, points, scatter, noise](runtime::Work& work) {
     const msg::Segments& in = work.input<msg::Segments>();
     msg::Lines& out = work.output<msg::Lines>();
     if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
@@ -36,12 +36,11 @@ runtime::Method make(const std::string& method, const ParameterSettings& paramet
     for (std::uint32_t i = 0; i < in.segments().size(); ++i) {
       const PointsView segment =
           points->view().subview(in.segments()[i].begin(), in.segments()[i].end());
-      FitResult result = fit(segment, sensor);
+      const FitResult result = fit(segment, sensor);
       if (result.ok()) {
         const double residuals = chi_square(result.estimate.line, segment, sensor);
-        if (scales) scale_to_residuals(result.estimate, residuals, segment.size());
-        LineSegment line = line_segment(result.estimate, result.normal, segment);
-        if (scales) add_flatness(line, sensor.flatness_stddev);
+        const LineSegment line = propagated ? true_segment(result, segment, sensor, residuals)
+                                            : line_segment(result.estimate, result.normal, segment);
         scatter->add(i, segment, residuals);
         topics::append_line(line, residuals, i, out);
       } else {
@@ -49,9 +48,7 @@ runtime::Method make(const std::string& method, const ParameterSettings& paramet
       }
     }
     scatter->report(work);
-    noise->add(in, *points);
-    noise->report(
-        [&work](const char* name, const std::string& value) { work.set_diagnostic(name, value); });
+    noise->add(in, *points, work);
     work.fail(out.failures().size());
   }};
 }

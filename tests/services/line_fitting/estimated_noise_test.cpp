@@ -14,6 +14,12 @@
 namespace quoin {
 namespace {
 
+struct Heartbeat {
+  std::map<std::string, std::string> entries;
+
+  void set_diagnostic(const std::string& name, const std::string& value) { entries[name] = value; }
+};
+
 class EstimatedNoiseTest : public testing::Test {
  protected:
   EstimatedNoiseTest() { message_.sensor_model(topics::sensor_model_message(declared_)); }
@@ -39,8 +45,7 @@ class EstimatedNoiseTest : public testing::Test {
       convert_ordered(message_.bearings(), message_.ranges(), points_);
       model_ = noise_.model_for(message_);
       noise_.declare(message_, model_, lines_);
-      noise_.add(message_, points_);
-      noise_.report([this](const char* name, const std::string& value) { status_[name] = value; });
+      noise_.add(message_, points_, heartbeat_);
     }
   }
 
@@ -58,14 +63,14 @@ class EstimatedNoiseTest : public testing::Test {
   Points points_;
   EstimatedNoise noise_;
   SensorModel model_;
-  std::map<std::string, std::string> status_;
+  Heartbeat heartbeat_;
 };
 
 TEST_F(EstimatedNoiseTest, DeclaredNoiseStays) {
   run(60, 0.03);
   EXPECT_EQ(model_.range_stddev, 0.01);
   EXPECT_FALSE(lines_.sensor_model().estimated());
-  EXPECT_TRUE(status_.empty());
+  EXPECT_TRUE(heartbeat_.entries.empty());
 }
 
 TEST_F(EstimatedNoiseTest, IsUsedOnceItIsKnown) {
@@ -78,15 +83,16 @@ TEST_F(EstimatedNoiseTest, IsUsedOnceItIsKnown) {
   EXPECT_EQ(model_.range_bias_stddev, 0.03);
   EXPECT_TRUE(lines_.sensor_model().estimated());
   EXPECT_EQ(lines_.sensor_model().range_stddev(), model_.range_stddev);
-  EXPECT_THAT(status_["Noise"], testing::MatchesRegex("range (29|30|31)[.].* mm, growing .*"));
-  EXPECT_EQ(status_.count("Noise Jumps"), 0U);
+  EXPECT_THAT(heartbeat_.entries["Noise"],
+              testing::MatchesRegex("range (29|30|31)[.].* mm, growing .*"));
+  EXPECT_EQ(heartbeat_.entries.count("Noise Jumps"), 0U);
 }
 
 TEST_F(EstimatedNoiseTest, ReportsAJump) {
   message_.sensor_model().estimated(true);
   run(100, 0.01);
   run(40, 0.03);
-  EXPECT_EQ(status_["Noise Jumps"], "1, the last at scan 119");
+  EXPECT_EQ(heartbeat_.entries["Noise Jumps"], "1, the last at scan 119");
   EXPECT_NEAR(model_.range_stddev, 0.03, 0.0015);
 }
 
