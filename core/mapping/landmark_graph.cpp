@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mapping/landmark_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "core/geometry/angle.hpp"
+
+namespace quoin {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+
+constexpr double huber = 2.5;                // standard deviations, of two dimensions together
+constexpr double origin_information = 1e10;  // of the first pose
+
+/// Normal equations, their lower triangle as triplets.
+struct Equations {
+  std::vector<Eigen::Triplet<double>> triplets;
+  Eigen::VectorXd gradient;
+
+  template <class Block>
+  void add(int row, int column, const Block& block) {
+    for (int c = 0; c < block.cols(); ++c) {
+      for (int r = 0; r < block.rows(); ++r) {
+        if (row + r >= column + c) triplets.emplace_back(row + r, column + c, block(r, c));
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::size_t LandmarkGraph::add_keyframe(const Pose2& pose, const PoseEstimate& motion) {
+  keyframes_.push_back({pose, {}});
+  motions_.push_back(motion);
+  motion_information_.push_back(keyframes_.size() == 1
+                                    ? Eigen::Matrix3d::Zero()
+                                    : Eigen::Matrix3d(motion.covariance.inverse()));
+  return keyframes_.size() - 1;
+}
+
+std::size_t LandmarkGraph::add_landmark(const LineLandmark& landmark) {
+  landmarks_.push_back(landmark);
+  return landmarks_.size() - 1;
+}
+
+void LandmarkGraph::observe(std::size_t keyframe, std::size_t landmark,
+                            const LineMeasurement& measurement) {
+  keyframes_[keyframe].observations.push_back({landmark, measurement});
+  LineLandmark& seen = landmarks_[landmark];
+  if (seen.observations == 0) seen.first_keyframe = keyframe;
+  seen.last_keyframe = keyframe;
+  ++seen.observations;
+}
+
+void LandmarkGraph::merge(std::size_t kept, std::size_t dropped) {
+  LineLandmark& to = landmarks_[kept];
+  LineLandmark& from = landmarks_[dropped];
+  for (const double end : {from.low, from.high}) {
+    const double s = to.along().dot(from.at(end) - to.anchor);
+    to.low = std::min(to.low, s);
+    to.high = std::max(to.high, s);
+  }
+  to.observations += from.observations;
+  to.first_keyframe = std::min(to.first_keyframe, from.first_keyframe);
+  to.last_keyframe = std::max(to.last_keyframe, from.last_keyframe);
+  from.alive = false;
+  for (std::size_t k = from.first_keyframe; k <= from.last_keyframe && k < keyframes_.size(); ++k) {
+    for (Observation& observation : keyframes_[k].observations) {
+      if (observation.landmark == dropped) observation.landmark = kept;
+    }
+  }
+}
+
+double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covariance) {
+  const int poses = static_cast<int>(keyframes_.size());
+  const int size = 3 * poses + 2 * static_cast<int>(landmarks_.size());
+  Equations equations;
+  equations.gradient = Eigen::VectorXd::Zero(size);
+  equations.triplets.reserve(64 * keyframes_.size());
+  double cost = 0.0;
+  equations.add(0, 0, Eigen::Matrix3d(origin_information * Eigen::Matrix3d::Identity()));
+  for (int k = 0; k < poses; ++k) {
+    const Keyframe& keyframe = keyframes_[static_cast<std::size_t>(k)];
+    if (k > 0) {
+      const Pose2& before = keyframes_[static_cast<std::size_t>(k) - 1].pose;
+      const Pose2 expected = between(before, keyframe.pose);
+      const Pose2& motion = motions_[static_cast<std::size_t>(k)].pose;
+      const Eigen::Vector3d error(expected.x - motion.x, expected.y - motion.y,
+                                  normalized_angle(expected.theta - motion.theta));
+      const double c = std::cos(before.theta);
+      const double s = std::sin(before.theta);
+      Eigen::Matrix3d by_before, by_pose;
+      by_before << -c, -s, expected.y, s, -c, -expected.x, 0.0, 0.0, -1.0;
+      by_pose << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+      const Eigen::Matrix3d& information = motion_information_[static_cast<std::size_t>(k)];
+      cost += 0.5 * error.dot(information * error);
+      const Eigen::Matrix3d weighted_before = by_before.transpose() * information;
+      const Eigen::Matrix3d weighted_pose = by_pose.transpose() * information;
+      equations.add(3 * (k - 1), 3 * (k - 1), Eigen::Matrix3d(weighted_before * by_before));
+      equations.add(3 * k, 3 * (k - 1), Eigen::Matrix3d(weighted_pose * by_before));
+      equations.add(3 * k, 3 * k, Eigen::Matrix3d(weighted_pose * by_pose));
+      equations.gradient.segment<3>(3 * (k - 1)) += weighted_before * error;
+      equations.gradient.segment<3>(3 * k) += weighted_pose * error;
+    }
+    for (const Observation& observation : keyframe.observations) {
+      const LineResidual residual =
+          line_residual(keyframe.pose, landmarks_[observation.landmark], observation.measurement);
+      Eigen::Matrix2d information = observation.measurement.covariance.inverse();
+      const double squared = residual.value.dot(information * residual.value);
+      const double deviations = std::sqrt(squared);
+      if (deviations > huber) {
+        information *= huber / deviations;
+        cost += huber * (deviations - 0.5 * huber);
+      } else {
+        cost += 0.5 * squared;
+      }
+      const int at = 3 * poses + 2 * static_cast<int>(observation.landmark);
+      const Eigen::Matrix<double, 3, 2> weighted_pose = residual.by_pose.transpose() * information;
+      const Eigen::Matrix2d weighted_landmark = residual.by_landmark.transpose() * information;
+      equations.add(3 * k, 3 * k, Eigen::Matrix3d(weighted_pose * residual.by_pose));
+      equations.add(at, 3 * k, Eigen::Matrix<double, 2, 3>(weighted_landmark * residual.by_pose));
+      equations.add(at, at, Eigen::Matrix2d(weighted_landmark * residual.by_landmark));
+      equations.gradient.segment<3>(3 * k) += weighted_pose * residual.value;
+      equations.gradient.segment<2>(at) += weighted_landmark * residual.value;
+    }
+  }
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    if (landmarks_[i].alive) continue;
+    const int at = 3 * poses + 2 * static_cast<int>(i);
+    equations.add(at, at, Eigen::Matrix2d(Eigen::Matrix2d::Identity()));
+  }
+  Sparse lower(size, size);
+  lower.setFromTriplets(equations.triplets.begin(), equations.triplets.end());
+
+  // Minimum degree, but for the variables whose joint covariance is wanted: what is eliminated last
+  // has it in the last block of the factor.
+  Permutation order;
+  Sparse full = lower.selfadjointView<Eigen::Lower>();
+  Eigen::AMDOrdering<int>()(full, order);
+  std::vector<char> is_last(static_cast<std::size_t>(size), 0);
+  for (const int variable : last) is_last[static_cast<std::size_t>(variable)] = 1;
+  Permutation inverse(size);  // from the place of a variable to its place in the order
+  int next = 0;
+  for (int i = 0; i < size; ++i) {
+    const int variable = order.indices()(i);
+    if (is_last[static_cast<std::size_t>(variable)] == 0) inverse.indices()(variable) = next++;
+  }
+  for (const int variable : last) inverse.indices()(variable) = next++;
+  Sparse ordered(size, size);
+  ordered.selfadjointView<Eigen::Lower>() =
+      lower.selfadjointView<Eigen::Lower>().twistedBy(inverse);
+  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(ordered);
+  if (factor.info() != Eigen::Success) return cost;
+  const Eigen::VectorXd change =
+      inverse.transpose() * factor.solve(Eigen::VectorXd(inverse * -equations.gradient));
+  if (!change.allFinite()) return cost;
+  for (int k = 0; k < poses; ++k) {
+    Pose2& pose = keyframes_[static_cast<std::size_t>(k)].pose;
+    pose.x += change(3 * k);
+    pose.y += change(3 * k + 1);
+    pose.theta = normalized_angle(pose.theta + change(3 * k + 2));
+  }
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const int at = 3 * poses + 2 * static_cast<int>(i);
+    landmarks_[i].phi = normalized_angle(landmarks_[i].phi + change(at));
+    landmarks_[i].offset += change(at + 1);
+  }
+  if (covariance != nullptr) {
+    const int count = static_cast<int>(last.size());
+    const Sparse factored = factor.matrixL();
+    const Eigen::MatrixXd block = factored.bottomRightCorner(count, count);
+    const Eigen::MatrixXd root =
+        block.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(count, count));
+    *covariance = root.transpose() * root;
+  }
+  return cost;
+}
+
+double LandmarkGraph::optimize(int steps) {
+  double cost = 0.0;
+  for (int i = 0; i < steps; ++i) cost = step({}, nullptr);
+  return cost;
+}
+
+Eigen::MatrixXd LandmarkGraph::marginal_after_step(std::size_t keyframe,
+                                                   std::span<const std::size_t> landmarks) {
+  std::vector<int> last;
+  for (int i = 0; i < 3; ++i) last.push_back(3 * static_cast<int>(keyframe) + i);
+  for (const std::size_t landmark : landmarks) {
+    const int at = static_cast<int>(3 * keyframes_.size() + 2 * landmark);
+    last.push_back(at);
+    last.push_back(at + 1);
+  }
+  Eigen::MatrixXd covariance;
+  step(last, &covariance);
+  return covariance;
+}
+
+}  // namespace quoin

@@ -1,0 +1,695 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mapping/landmarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "core/geometry/angle.hpp"
+
+namespace quoin {
+namespace {
+
+constexpr double gate = 13.815510557964274;  // chi square of 2, 99.9 %
+constexpr double near_gate = 30.0;           // what is nearer than this is no new wall
+constexpr double same_wall_gate = 9.21;      // chi square of 2, 99 %
+constexpr double huber = 2.5;                // standard deviations
+constexpr double widest_offset = 0.30;       // [m] standard deviation of an innovation
+constexpr double widest_direction = 0.10;    // [rad]
+constexpr double wide_factor = 4.0;          // where nothing else fits
+constexpr double lost_after = 0.6;           // [s]
+constexpr int lost_scans = 3;                // in a row, whatever the time
+constexpr double least_refuted = 1.0;        // [m]
+constexpr double weak_position = 0.25;       // [m] by the walls alone
+constexpr std::size_t refresh_keyframes = 12;
+constexpr double refresh_distance = 4.0;  // [m]
+constexpr std::size_t most_active = 120;
+constexpr std::size_t recent_keyframes = 12;
+
+SidedSegment sided(const LineMeasurement& m) { return {m.alpha, m.middle, m.half_length}; }
+SidedSegment sided(const LineLandmark& l) {
+  return {l.phi, l.at(0.5 * (l.low + l.high)), 0.5 * l.length()};
+}
+
+/// Rows of pose and one wall in the joint covariance: 5x5.
+Eigen::Matrix<double, 5, 5> block_of(const Eigen::MatrixXd& covariance, std::size_t place) {
+  const auto at = static_cast<Eigen::Index>(3 + 2 * place);
+  Eigen::Matrix<double, 5, 5> block;
+  block.topLeftCorner<3, 3>() = covariance.topLeftCorner<3, 3>();
+  block.topRightCorner<3, 2>() = covariance.block<3, 2>(0, at);
+  block.bottomLeftCorner<2, 3>() = covariance.block<2, 3>(at, 0);
+  block.bottomRightCorner<2, 2>() = covariance.block<2, 2>(at, at);
+  return block;
+}
+
+Eigen::Matrix<double, 2, 5> jacobian_of(const LineResidual& residual) {
+  Eigen::Matrix<double, 2, 5> jacobian;
+  jacobian << residual.by_pose, residual.by_landmark;
+  return jacobian;
+}
+
+/// How much of a segment has to lie on a wall to be of it [m]: walls that end are different walls
+/// from others farther on in the same line.
+bool lies_on(const Pose2& pose, const LineLandmark& landmark, const LineMeasurement& m,
+             double along_stddev) {
+  const double shorter = std::min(2.0 * m.half_length, landmark.length());
+  return overlap(pose, landmark, m) > 0.25 * shorter - 2.0 * along_stddev;
+}
+
+Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change) {
+  return {pose.x + change.x(), pose.y + change.y(), normalized_angle(pose.theta + change.z())};
+}
+
+/// As compose, with errors that may be correlated in any way: slip and bias of wheels last longer
+/// than from scan to scan. The bound (1 + s) A + (1 + 1/s) B holds for all correlations; s makes
+/// its trace least.
+PoseEstimate compose_correlated(const PoseEstimate& first, const PoseEstimate& increment) {
+  const Eigen::Matrix3d by_first = compose_by_first(first.pose, increment.pose);
+  const Eigen::Matrix3d by_second = compose_by_second(first.pose);
+  const Eigen::Matrix3d a = by_first * first.covariance * by_first.transpose();
+  const Eigen::Matrix3d b = by_second * increment.covariance * by_second.transpose();
+  const double trace_a = a.trace();
+  const double trace_b = b.trace();
+  if (!(trace_a > 0.0) || !(trace_b > 0.0)) return {compose(first.pose, increment.pose), a + b};
+  const double s = std::sqrt(trace_b / trace_a);
+  return {compose(first.pose, increment.pose), (1.0 + s) * a + (1.0 + 1.0 / s) * b};
+}
+
+}  // namespace
+
+LineLandmark Landmarks::wall(const Belief& belief, std::size_t place) const {
+  LineLandmark result = graph_.landmarks()[active_[place]];
+  result.phi = belief.walls[place](0);
+  result.offset = belief.walls[place](1);
+  return result;
+}
+
+Landmarks::Belief Landmarks::predict() const {
+  Belief prior = belief_;
+  prior.pose = compose(belief_.pose, since_.pose);
+  const Eigen::Matrix3d by_first = compose_by_first(belief_.pose, since_.pose);
+  const Eigen::Matrix3d by_second = compose_by_second(belief_.pose);
+  prior.covariance.topRows<3>() = by_first * belief_.covariance.topRows<3>();
+  prior.covariance.leftCols<3>() = prior.covariance.leftCols<3>() * by_first.transpose();
+  prior.covariance.leftCols<3>().bottomRows(prior.covariance.rows() - 3) =
+      prior.covariance.topRows<3>().rightCols(prior.covariance.cols() - 3).transpose();
+  prior.covariance.topLeftCorner<3, 3>() =
+      by_first * belief_.covariance.topLeftCorner<3, 3>() * by_first.transpose() +
+      by_second * since_.covariance * by_second.transpose();
+  return prior;
+}
+
+/// One line after the other, the longest first; each one that is taken narrows the gates of the
+/// others. A line that two walls explain about as well waits until the rest has been taken.
+Landmarks::Pairs Landmarks::associate(Belief belief, double widest_direction,
+                                      double widest_offset) const {
+  Pairs pairs;
+  std::vector<std::size_t> waiting(measurements_.size());
+  for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i] = i;
+  std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
+    return measurements_[a].half_length > measurements_[b].half_length;
+  });
+  for (int pass = 0; pass < 3 && !waiting.empty(); ++pass) {
+    std::vector<std::size_t> left;
+    for (const std::size_t i : waiting) {
+      const LineMeasurement& m = measurements_[i];
+      double best = std::numeric_limits<double>::infinity();
+      double second = best;
+      std::size_t place = 0;
+      const double position_stddev =
+          std::min(0.5, std::sqrt(std::max(belief.covariance(0, 0), belief.covariance(1, 1))));
+      for (std::size_t k = 0; k < active_.size(); ++k) {
+        const LineLandmark landmark = wall(belief, k);
+        if (std::cos(belief.pose.theta + m.alpha - landmark.phi) < 0.8) continue;
+        if (!lies_on(belief.pose, landmark, m, position_stddev)) continue;
+        const LineResidual residual = line_residual(belief.pose, landmark, m);
+        const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
+        const Eigen::Matrix2d s =
+            jacobian * block_of(belief.covariance, k) * jacobian.transpose() + m.covariance;
+        if (s(0, 0) > widest_direction * widest_direction ||
+            s(1, 1) > widest_offset * widest_offset) {
+          continue;
+        }
+        const double squared = residual.value.dot(s.inverse() * residual.value);
+        if (squared > gate) continue;
+        const double value = squared + std::log(s.determinant());
+        if (value < best) {
+          second = best;
+          best = value;
+          place = k;
+        } else {
+          second = std::min(second, value);
+        }
+      }
+      if (!std::isfinite(best)) continue;
+      if (second - best < 4.0 && pass < 2) {
+        left.push_back(i);
+        continue;
+      }
+      if (second - best < 1.0) continue;  // either would be a guess
+      pairs.emplace_back(i, place);
+      const LineResidual residual = line_residual(belief.pose, wall(belief, place), m);
+      const auto at = static_cast<Eigen::Index>(3 + 2 * place);
+      const Eigen::MatrixXd gain_base =
+          belief.covariance.leftCols<3>() * residual.by_pose.transpose() +
+          belief.covariance.middleCols<2>(at) * residual.by_landmark.transpose();
+      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
+      const Eigen::Matrix2d s =
+          jacobian * block_of(belief.covariance, place) * jacobian.transpose() + m.covariance;
+      const Eigen::MatrixXd gain = gain_base * s.inverse();
+      const Eigen::VectorXd change = -gain * residual.value;
+      belief.pose = moved(belief.pose, change.head<3>());
+      for (std::size_t k = 0; k < active_.size(); ++k) {
+        belief.walls[k] += change.segment<2>(static_cast<Eigen::Index>(3 + 2 * k));
+      }
+      belief.covariance -= gain * gain_base.transpose();
+    }
+    waiting = std::move(left);
+  }
+  return pairs;
+}
+
+/// All lines together, where the pose is too uncertain for one at a time.
+Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief) const {
+  std::vector<SidedSegment> first, second;
+  for (const LineMeasurement& m : measurements_) first.push_back(sided(m));
+  for (std::size_t k = 0; k < active_.size(); ++k) second.push_back(sided(wall(belief, k)));
+  AlignmentSearch search;
+  search.center = belief.pose;
+  // Relative to the walls seen last: what the motion adds.
+  const Eigen::Matrix3d& c = since_.covariance;
+  search.largest_translation = std::min(1.5, 0.1 + 3.5 * std::sqrt(std::max(c(0, 0), c(1, 1))));
+  search.largest_turn = std::min(0.8, 0.05 + 3.5 * std::sqrt(c(2, 2)));
+  const std::vector<Alignment> found = align(first, second, search);
+  if (found.empty() || found.front().pairs.size() < 3) return {};
+  if (found.size() > 1 && found[1].support > 0.8 * found[0].support) return {};
+  return found.front().pairs;
+}
+
+/// Iterated update of the joint belief. Pairs that the posterior does not explain are dropped.
+bool Landmarks::update(const Belief& prior, Pairs& pairs, Belief& posterior) const {
+  posterior = prior;
+  for (int round = 0; round < 3; ++round) {
+    const auto rows = static_cast<Eigen::Index>(2 * pairs.size());
+    if (rows == 0) {
+      posterior = prior;
+      return false;
+    }
+    const Eigen::Index size = prior.covariance.rows();
+    for (int iteration = 0; iteration < 2; ++iteration) {
+      Eigen::MatrixXd base(size, rows);
+      Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, size);
+      Eigen::VectorXd innovation(rows);
+      Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(rows, rows);
+      for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const auto [i, k] = pairs[p];
+        const auto row = static_cast<Eigen::Index>(2 * p);
+        const auto at = static_cast<Eigen::Index>(3 + 2 * k);
+        const LineMeasurement& m = measurements_[i];
+        const LineResidual residual = line_residual(posterior.pose, wall(posterior, k), m);
+        jacobian.block<2, 3>(row, 0) = residual.by_pose;
+        jacobian.block<2, 2>(row, at) = residual.by_landmark;
+        base.middleCols<2>(row) =
+            prior.covariance.leftCols<3>() * residual.by_pose.transpose() +
+            prior.covariance.middleCols<2>(at) * residual.by_landmark.transpose();
+        const double deviations =
+            std::sqrt(residual.value.dot(m.covariance.inverse() * residual.value));
+        const double inflation = round > 0 && deviations > huber ? deviations / huber : 1.0;
+        noise.block<2, 2>(row, row) = inflation * m.covariance;
+        // The residual where the prior is, linearized here.
+        Eigen::Vector3d back(prior.pose.x - posterior.pose.x, prior.pose.y - posterior.pose.y,
+                             normalized_angle(prior.pose.theta - posterior.pose.theta));
+        innovation.segment<2>(row) = residual.value + residual.by_pose * back +
+                                     residual.by_landmark * (prior.walls[k] - posterior.walls[k]);
+      }
+      const Eigen::MatrixXd s = jacobian * base + noise;
+      const Eigen::LLT<Eigen::MatrixXd> factor(s);
+      if (factor.info() != Eigen::Success) return false;
+      const Eigen::MatrixXd gain = factor.solve(base.transpose()).transpose();
+      const Eigen::VectorXd change = -gain * innovation;
+      if (!change.allFinite()) return false;
+      posterior.pose = moved(prior.pose, change.head<3>());
+      for (std::size_t k = 0; k < active_.size(); ++k) {
+        posterior.walls[k] =
+            prior.walls[k] + change.segment<2>(static_cast<Eigen::Index>(3 + 2 * k));
+      }
+      if (iteration == 1) {
+        posterior.covariance = prior.covariance - gain * base.transpose();
+        posterior.covariance =
+            (0.5 * (posterior.covariance + posterior.covariance.transpose())).eval();
+      }
+    }
+    const std::size_t before = pairs.size();
+    std::erase_if(pairs, [&](const auto& pair) {
+      const LineMeasurement& m = measurements_[pair.first];
+      const LineLandmark landmark = wall(posterior, pair.second);
+      const LineResidual residual = line_residual(posterior.pose, landmark, m);
+      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
+      const Eigen::Matrix2d s =
+          jacobian * block_of(posterior.covariance, pair.second) * jacobian.transpose() +
+          m.covariance;
+      return residual.value.dot(s.inverse() * residual.value) > gate ||
+             !lies_on(posterior.pose, landmark, m, 0.0);
+    });
+    if (pairs.size() == before && round > 0) break;
+  }
+  return !pairs.empty();
+}
+
+/// Length [m] of mapped walls through which lines of the scan are seen.
+double Landmarks::seen_through(const Pose2& pose) const {
+  constexpr int samples = 5;
+  double length = 0.0;
+  for (const std::size_t index : active_) {
+    const LineLandmark& landmark = graph_.landmarks()[index];
+    if (landmark.observations < 3) continue;
+    for (int i = 0; i < samples; ++i) {
+      const double s = landmark.low + (i + 0.5) / samples * landmark.length();
+      const Eigen::Vector2d point = pose.inverse_transform(landmark.at(s));
+      const double distance = point.norm();
+      if (distance < 0.3) continue;
+      for (const LineMeasurement& m : measurements_) {
+        const Eigen::Vector2d normal(std::cos(m.alpha), std::sin(m.alpha));
+        const Eigen::Vector2d tangent(-normal.y(), normal.x());
+        const double approach = normal.dot(point) / distance;
+        if (approach < 0.1) continue;
+        const double reached = normal.dot(m.middle) / approach;
+        if (reached < 1.1 * distance + 0.3) continue;
+        if (std::abs(tangent.dot(reached / distance * point - m.middle)) > m.half_length) continue;
+        length += landmark.length() / samples;
+        break;
+      }
+    }
+  }
+  return length;
+}
+
+double Landmarks::length_of(const Pairs& pairs) const {
+  double length = 0.0;
+  for (const auto& pair : pairs) length += 2.0 * measurements_[pair.first].half_length;
+  return length;
+}
+
+double Landmarks::length_of_scan() const {
+  double length = 0.0;
+  for (const LineMeasurement& m : measurements_) length += 2.0 * m.half_length;
+  return length;
+}
+
+/// One line at a time; where that finds few, all lines together; where that does, too, one line at
+/// a time in wide gates. With the pose that they give, the rest is looked for.
+Landmarks::Pairs Landmarks::find_pairs(const Belief& prior) const {
+  const double total = length_of_scan();
+  Pairs pairs = associate(prior, widest_direction, widest_offset);
+  const auto improve = [&](Pairs found) {
+    Belief posterior;
+    if (found.empty() || !update(prior, found, posterior)) return;
+    Pairs again = associate(posterior, widest_direction, widest_offset);
+    if (length_of(again) > length_of(found)) found = std::move(again);
+    if (length_of(found) > 1.2 * length_of(pairs)) pairs = std::move(found);
+  };
+  if (length_of(pairs) < 0.5 * total) improve(associate_by_alignment(prior));
+  if (length_of(pairs) < 0.5 * total) {
+    improve(associate(prior, wide_factor * widest_direction, wide_factor * widest_offset));
+  }
+  return pairs;
+}
+
+void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization& result) {
+  double matched = 0.0, total = 0.0;
+  for (const LineMeasurement& m : measurements_) total += 2.0 * m.half_length;
+  // What the walls alone say of the position.
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const auto& [i, k] : pairs) {
+    const LineMeasurement& m = measurements_[i];
+    matched += 2.0 * m.half_length;
+    const Eigen::Vector2d normal = wall(posterior, k).normal();
+    information += normal * normal.transpose() / m.covariance(1, 1);
+  }
+  result.matched = pairs.size();
+  result.pose = {posterior.pose, posterior.covariance.topLeftCorner<3, 3>()};
+  result.weak_direction.reset();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(information);
+  const bool weak = axes.eigenvalues()(0) * weak_position * weak_position < 1.0;
+  if (weak) {
+    const Eigen::Vector2d direction = axes.eigenvectors().col(0);
+    result.weak_direction = direction_of(direction.x(), direction.y());
+  }
+  const double refuted = seen_through(posterior.pose);
+  const bool contradicted =
+      matched < 0.5 * total && refuted > std::max({matched, 0.4 * total, least_refuted});
+  fits_ = !contradicted && (has_odometry_ || !pairs.empty() || measurements_.size() < 2);
+  if (lost_) {
+    result.status = LocalizationStatus::lost;
+  } else if (!fits_ || weak || matched < 0.35 * total) {
+    result.status = LocalizationStatus::ambiguous;
+  } else {
+    result.status = LocalizationStatus::tracking;
+  }
+}
+
+void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
+  const std::size_t keyframe = graph_.add_keyframe(posterior.pose, since_);
+  belief_ = posterior;
+  std::vector<char> used(measurements_.size(), 0);
+  for (const auto& [i, k] : pairs) {
+    used[i] = 1;
+    LineLandmark& landmark = graph_.landmarks()[active_[k]];
+    landmark.phi = posterior.walls[k](0);
+    landmark.offset = posterior.walls[k](1);
+    extend(landmark, posterior.pose, measurements_[i]);
+    graph_.observe(keyframe, active_[k], measurements_[i]);
+  }
+  const std::size_t known = active_.size();
+  for (std::size_t i = 0; i < measurements_.size(); ++i) {
+    const LineMeasurement& m = measurements_[i];
+    if (used[i] != 0 || 2.0 * m.half_length < parameters_.min_length) continue;
+    bool near = false;
+    for (std::size_t k = 0; k < known && !near; ++k) {
+      const LineLandmark landmark = wall(belief_, k);
+      if (std::cos(belief_.pose.theta + m.alpha - landmark.phi) < 0.8) continue;
+      if (overlap(belief_.pose, landmark, m) <= 0.0) continue;
+      const LineResidual residual = line_residual(belief_.pose, landmark, m);
+      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
+      const Eigen::Matrix2d s =
+          jacobian * block_of(belief_.covariance, k) * jacobian.transpose() + m.covariance;
+      near = s(1, 1) < widest_offset * widest_offset &&
+             residual.value.dot(s.inverse() * residual.value) < near_gate;
+    }
+    if (near) continue;
+    const LineLandmark landmark = landmark_of(belief_.pose, m);
+    const std::size_t index = graph_.add_landmark(landmark);
+    graph_.observe(keyframe, index, m);
+    const Eigen::Index size = belief_.covariance.rows();
+    const LineResidual residual = line_residual(belief_.pose, landmark, m);
+    Eigen::MatrixXd grown(size + 2, size + 2);
+    grown.topLeftCorner(size, size) = belief_.covariance;
+    grown.bottomLeftCorner(2, size) = residual.by_pose * belief_.covariance.topRows<3>();
+    grown.topRightCorner(size, 2) = grown.bottomLeftCorner(2, size).transpose();
+    grown.bottomRightCorner<2, 2>() =
+        residual.by_pose * belief_.covariance.topLeftCorner<3, 3>() * residual.by_pose.transpose() +
+        m.covariance;
+    belief_.covariance = std::move(grown);
+    belief_.walls.emplace_back(landmark.phi, landmark.offset);
+    active_.push_back(index);
+  }
+  since_ = PoseEstimate{};
+  const double way = std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y);
+  if (keyframe >= refreshed_keyframe_ + refresh_keyframes || way > refresh_distance) {
+    refresh();
+    if (close_loop()) refresh();
+  }
+}
+
+/// One step of the whole graph, and the filter anew from its joint covariance.
+void Landmarks::refresh() {
+  const std::size_t keyframe = graph_.keyframes().size() - 1;
+  const Pose2 pose = graph_.keyframes().back().pose;
+  std::vector<std::pair<double, std::size_t>> around;
+  for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
+    const LineLandmark& landmark = graph_.landmarks()[i];
+    if (!landmark.alive) continue;
+    // Seen once, long ago: something that moved.
+    if (landmark.observations < 2 && landmark.last_keyframe + 30 < keyframe) continue;
+    const Eigen::Vector2d from = Eigen::Vector2d(pose.x, pose.y) - landmark.anchor;
+    const double s = std::clamp(landmark.along().dot(from), landmark.low, landmark.high);
+    const double distance = (landmark.at(s) - Eigen::Vector2d(pose.x, pose.y)).norm();
+    if (distance < parameters_.reach) around.emplace_back(distance, i);
+  }
+  std::sort(around.begin(), around.end());
+  if (around.size() > most_active) around.resize(most_active);
+  active_.clear();
+  for (const auto& [distance, index] : around) active_.push_back(index);
+  std::sort(active_.begin(), active_.end());
+  const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active_);
+  if (covariance.rows() == 0) return;
+  belief_.covariance = covariance;
+  belief_.pose = graph_.keyframes().back().pose;
+  belief_.walls.clear();
+  for (const std::size_t index : active_) {
+    belief_.walls.emplace_back(graph_.landmarks()[index].phi, graph_.landmarks()[index].offset);
+  }
+  refreshed_at_ = belief_.pose;
+  refreshed_keyframe_ = keyframe;
+  merge_same_walls();
+}
+
+/// Walls that are one within their joint covariance, where that is narrow enough to tell.
+void Landmarks::merge_same_walls() {
+  for (std::size_t a = 0; a < active_.size(); ++a) {
+    for (std::size_t b = a + 1; b < active_.size(); ++b) {
+      const LineLandmark& first = graph_.landmarks()[active_[a]];
+      const LineLandmark& second = graph_.landmarks()[active_[b]];
+      if (!first.alive || !second.alive) continue;
+      const double turn = normalized_angle(second.phi - first.phi);
+      if (std::abs(turn) > 0.2) continue;
+      const double s0 = first.along().dot(second.at(second.low) - first.anchor);
+      const double s1 = first.along().dot(second.at(second.high) - first.anchor);
+      const double low = std::max(first.low, std::min(s0, s1));
+      const double high = std::min(first.high, std::max(s0, s1));
+      if (high - low < 0.25 * std::min(first.length(), second.length())) continue;
+      const double s = 0.5 * (low + high);
+      const Eigen::Vector2d point = first.at(s);
+      const Eigen::Vector2d difference(turn,
+                                       second.normal().dot(point - second.anchor) - second.offset);
+      Eigen::Matrix<double, 2, 4> jacobian;
+      jacobian << -1.0, 0.0, 1.0, 0.0, -s, 1.0, second.along().dot(point - second.anchor), -1.0;
+      const auto ia = static_cast<Eigen::Index>(3 + 2 * a);
+      const auto ib = static_cast<Eigen::Index>(3 + 2 * b);
+      Eigen::Matrix4d joint;
+      joint << belief_.covariance.block<2, 2>(ia, ia), belief_.covariance.block<2, 2>(ia, ib),
+          belief_.covariance.block<2, 2>(ib, ia), belief_.covariance.block<2, 2>(ib, ib);
+      const Eigen::Matrix2d c = jacobian * joint * jacobian.transpose() +
+                                Eigen::Matrix2d(1e-12 * Eigen::Matrix2d::Identity());
+      if (c(0, 0) > 0.04 * 0.04 || c(1, 1) > 0.06 * 0.06) continue;
+      if (difference.dot(c.inverse() * difference) > same_wall_gate) continue;
+      const bool keep_first = first.observations >= second.observations;
+      graph_.merge(keep_first ? active_[a] : active_[b], keep_first ? active_[b] : active_[a]);
+    }
+  }
+  // The filter forgets the dropped ones: what they say of the pose is in the graph.
+  std::vector<Eigen::Index> kept{0, 1, 2};
+  std::vector<std::size_t> active;
+  std::vector<Eigen::Vector2d> walls;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    if (!graph_.landmarks()[active_[k]].alive) continue;
+    kept.push_back(static_cast<Eigen::Index>(3 + 2 * k));
+    kept.push_back(static_cast<Eigen::Index>(4 + 2 * k));
+    active.push_back(active_[k]);
+    walls.push_back(belief_.walls[k]);
+  }
+  if (active.size() == active_.size()) return;
+  belief_.covariance = Eigen::MatrixXd(belief_.covariance(kept, kept));
+  active_ = std::move(active);
+  belief_.walls = std::move(walls);
+}
+
+/// Compares the walls of the last keyframes with those seen long before. Accepted when one
+/// alignment is supported by several walls and no other one is, and when the graph explains what
+/// is merged about as well as before.
+bool Landmarks::close_loop() {
+  const std::size_t keyframe = graph_.keyframes().size() - 1;
+  if (keyframe < last_loop_keyframe_ + 5) return false;
+  std::vector<SidedSegment> recent, old;
+  std::vector<std::size_t> recent_index, old_index;
+  double turn_variance = 0.0, offset_variance = 0.0, total = 0.0;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const LineLandmark& landmark = graph_.landmarks()[active_[k]];
+    if (landmark.observations < 2) continue;
+    const SidedSegment segment = sided(landmark);
+    if (landmark.first_keyframe + 2 * recent_keyframes > keyframe &&
+        landmark.last_keyframe + recent_keyframes > keyframe) {
+      recent.push_back(segment);
+      recent_index.push_back(active_[k]);
+      total += 2.0 * segment.half_length;
+    } else if (landmark.last_keyframe + 2 * recent_keyframes < keyframe) {
+      old.push_back(segment);
+      old_index.push_back(active_[k]);
+      // Of the wall as the sensor would see it now.
+      const auto at = static_cast<Eigen::Index>(3 + 2 * k);
+      const Eigen::MatrixXd& c = belief_.covariance;
+      turn_variance = std::max(turn_variance, c(2, 2) + c(at, at) - 2.0 * c(2, at));
+      LineMeasurement m;
+      m.middle = belief_.pose.inverse_transform(segment.middle);
+      m.alpha = segment.normal - belief_.pose.theta;
+      const Eigen::Matrix<double, 2, 5> jacobian =
+          jacobian_of(line_residual(belief_.pose, landmark, m));
+      const Eigen::Matrix2d s = jacobian * block_of(c, k) * jacobian.transpose();
+      offset_variance = std::max(offset_variance, s(1, 1));
+    }
+  }
+  if (recent.size() < 4 || old.size() < 4) return false;
+  const Eigen::Vector2d here(belief_.pose.x, belief_.pose.y);
+  for (SidedSegment& segment : recent) segment.middle -= here;
+  for (SidedSegment& segment : old) segment.middle -= here;
+  AlignmentSearch search;
+  search.largest_turn = std::min(0.5, 0.02 + 3.5 * std::sqrt(turn_variance));
+  search.largest_translation = std::min(4.0, 0.1 + 3.5 * std::sqrt(offset_variance));
+  search.offset_tolerance = 0.12;
+  search.angle_tolerance = 0.06;
+  const std::vector<Alignment> found = align(recent, old, search);
+  if (found.empty()) return false;
+  const Alignment& best = found.front();
+  if (best.pairs.size() < 4 || best.support < 3.0 || best.support < 0.4 * total) return false;
+  if (found.size() > 1 && found[1].support > 0.7 * best.support) return false;
+  // Each old wall once or more; walls of both directions.
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const auto& [i, k] : best.pairs) {
+    const Eigen::Vector2d normal(std::cos(old[k].normal), std::sin(old[k].normal));
+    spread += std::min(recent[i].half_length, old[k].half_length) * normal * normal.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  if (axes.eigenvalues()(0) < 0.5) return false;
+
+  LandmarkGraph tried = graph_;
+  const double before = tried.optimize(2);
+  std::size_t merged = 0;
+  for (const auto& [i, k] : best.pairs) {
+    tried.merge(old_index[k], recent_index[i]);
+    ++merged;
+  }
+  const double after = tried.optimize(6);
+  last_loop_keyframe_ = keyframe;
+  // Twice the cost is a chi square; of 2 dimensions a merged wall, and the drift that it takes
+  // back, it grows by about 2 a wall. Three times that is refused.
+  if (2.0 * (after - before) > 3.0 * (2.0 * static_cast<double>(merged) + 3.0) * 2.0) return false;
+  graph_ = std::move(tried);
+  ++closed_loops_;
+  return true;
+}
+
+/// Where the scan fits all of the map, if only one pose does. Two scans in a row have to agree.
+bool Landmarks::relocalize(Localization& result) {
+  std::vector<SidedSegment> first, second;
+  double total = 0.0;
+  for (const LineMeasurement& m : measurements_) {
+    first.push_back(sided(m));
+    total += 2.0 * m.half_length;
+  }
+  for (const LineLandmark& landmark : graph_.landmarks()) {
+    if (landmark.alive && landmark.observations >= 3) second.push_back(sided(landmark));
+  }
+  const std::vector<Alignment> found = align(first, second, AlignmentSearch{});
+  const bool unique = !found.empty() && found.front().pairs.size() >= 4 &&
+                      found.front().support > 0.6 * total &&
+                      (found.size() < 2 || found[1].support < 0.75 * found[0].support);
+  if (!unique) {
+    candidate_.reset();
+    return false;
+  }
+  const Pose2 pose = found.front().pose;
+  const bool confirmed = candidate_ &&
+                         std::hypot(candidate_->x - pose.x, candidate_->y - pose.y) < 0.5 &&
+                         std::abs(normalized_angle(candidate_->theta - pose.theta)) < 0.5;
+  candidate_ = pose;
+  if (!confirmed) return false;
+  // A new keyframe that the motion does not tie to the one before.
+  since_.pose = between(belief_.pose, pose);
+  since_.covariance = Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal();
+  graph_.add_keyframe(pose, since_);
+  belief_.pose = pose;
+  since_ = PoseEstimate{};
+  refresh();
+  since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
+  candidate_.reset();
+  lost_ = false;
+  result.pose.pose = pose;
+  return true;
+}
+
+void Landmarks::operator()(const LocalizationInput& input, Localization& result) {
+  measurements_.clear();
+  for (const LineSegment& line : input.lines) {
+    const LineMeasurement m = line_measurement(line, parameters_.flatness_stddev);
+    if (m.half_length > 0.0 && m.covariance.allFinite() && m.covariance.determinant() > 0.0) {
+      measurements_.push_back(m);
+    }
+  }
+  result.map.clear();
+  const bool first = graph_.keyframes().empty();
+  if (first) {
+    belief_.covariance = 1e-10 * Eigen::Matrix3d::Identity();
+    add_keyframe(belief_, {});
+    result.pose = {belief_.pose, belief_.covariance.topLeftCorner<3, 3>()};
+    result.status = LocalizationStatus::tracking;
+    result.matched = 0;
+    result.weak_direction.reset();
+    last_pose_ = belief_.pose;
+  } else {
+    const double seconds = std::max(1e-3, input.stamp - *stamp_);
+    has_odometry_ = input.motion.has_value();
+    if (input.motion) {
+      since_ = compose_correlated(since_, *input.motion);
+    } else {
+      // From the last scan on; the spread grows with the time since the last keyframe.
+      const Pose2 pose = compose(last_pose_, after_twist(velocity_, seconds));
+      const double position = parameters_.speed_stddev * seconds;
+      const double heading = parameters_.turn_stddev * seconds;
+      since_.pose = between(belief_.pose, pose);
+      since_.covariance.diagonal() +=
+          Eigen::Vector3d(position * position, position * position, heading * heading);
+    }
+    Belief posterior;
+    if (lost_ && relocalize(result)) fits_ = true;
+    const Belief prior = predict();
+    Pairs pairs = find_pairs(prior);
+    update(prior, pairs, posterior);
+    judge(posterior, pairs, result);
+    if (fits_) {
+      lost_since_ = input.stamp;
+      unfit_scans_ = 0;
+      const bool found = pairs.size() >= 3 && length_of(pairs) > 0.5 * length_of_scan();
+      found_scans_ = lost_ && found ? found_scans_ + 1 : 0;
+      if (found_scans_ >= lost_scans) lost_ = false;
+    } else if (++unfit_scans_ >= lost_scans && input.stamp - lost_since_ > lost_after) {
+      lost_ = true;
+      found_scans_ = 0;
+      result.status = LocalizationStatus::lost;
+    }
+    velocity_ = twist_of(between(last_pose_, posterior.pose)) / seconds;
+    last_pose_ = posterior.pose;
+    const Pose2 way = between(belief_.pose, posterior.pose);
+    const double driven = std::hypot(way.x, way.y);
+    const bool shows_new = length_of(pairs) < 0.7 * length_of_scan();
+    if (fits_ && !lost_ &&
+        (driven > parameters_.keyframe_distance ||
+         std::abs(way.theta) > parameters_.keyframe_angle ||
+         (shows_new && (driven > 0.25 * parameters_.keyframe_distance ||
+                        std::abs(way.theta) > 0.25 * parameters_.keyframe_angle)))) {
+      add_keyframe(posterior, pairs);
+      // What the graph has smoothed moves the last scan along.
+      last_pose_ = belief_.pose;
+      result.pose = {belief_.pose, belief_.covariance.topLeftCorner<3, 3>()};
+    }
+  }
+  const std::size_t keyframe = graph_.keyframes().size() - 1;
+  scans_.emplace_back(keyframe, between(graph_.keyframes()[keyframe].pose, result.pose.pose));
+  stamp_ = input.stamp;
+  if (!input.wants_map) return;
+  for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
+    const LineLandmark& landmark = graph_.landmarks()[i];
+    if (!landmark.alive || landmark.observations < 3) continue;
+    MapLine line;
+    line.id = i;
+    line.start = landmark.at(landmark.low);
+    line.end = landmark.at(landmark.high);
+    line.observations = landmark.observations;
+    result.map.push_back(line);
+  }
+}
+
+std::vector<Pose2> Landmarks::trajectory() const {
+  std::vector<Pose2> poses;
+  poses.reserve(scans_.size());
+  for (const auto& [keyframe, pose] : scans_) {
+    poses.push_back(compose(graph_.keyframes()[keyframe].pose, pose));
+  }
+  return poses;
+}
+
+}  // namespace quoin
