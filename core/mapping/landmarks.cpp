@@ -24,6 +24,8 @@ constexpr double widest_direction = 0.10;    // [rad]
 constexpr double wide_factor = 4.0;          // where nothing else fits
 constexpr double lost_after = 0.6;           // [s]
 constexpr int lost_scans = 3;                // in a row, whatever the time
+constexpr double short_step = 0.25;          // [m]
+constexpr double short_turn = 0.35;          // [rad]
 constexpr double least_refuted = 1.0;        // [m]
 constexpr double weak_position = 0.25;       // [m] by the walls alone
 constexpr std::size_t refresh_keyframes = 12;
@@ -89,7 +91,7 @@ LineLandmark Landmarks::wall(const Belief& belief, std::size_t place) const {
   return result;
 }
 
-Landmarks::Belief Landmarks::predict() const {
+Landmarks::Belief Landmarks::predict(const Eigen::Matrix3d& motion_covariance) const {
   Belief prior = belief_;
   prior.pose = compose(belief_.pose, since_.pose);
   const Eigen::Matrix3d by_first = compose_by_first(belief_.pose, since_.pose);
@@ -100,7 +102,7 @@ Landmarks::Belief Landmarks::predict() const {
       prior.covariance.topRows<3>().rightCols(prior.covariance.cols() - 3).transpose();
   prior.covariance.topLeftCorner<3, 3>() =
       by_first * belief_.covariance.topLeftCorner<3, 3>() * by_first.transpose() +
-      by_second * since_.covariance * by_second.transpose();
+      by_second * motion_covariance * by_second.transpose();
   return prior;
 }
 
@@ -122,7 +124,7 @@ Landmarks::Pairs Landmarks::associate(Belief belief, double widest_direction,
       double second = best;
       std::size_t place = 0;
       const double position_stddev =
-          std::min(0.5, std::sqrt(std::max(belief.covariance(0, 0), belief.covariance(1, 1))));
+          std::min(0.25, std::sqrt(std::max(search_covariance_(0, 0), search_covariance_(1, 1))));
       for (std::size_t k = 0; k < active_.size(); ++k) {
         const LineLandmark landmark = wall(belief, k);
         if (std::cos(belief.pose.theta + m.alpha - landmark.phi) < 0.8) continue;
@@ -182,7 +184,7 @@ Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief) const {
   AlignmentSearch search;
   search.center = belief.pose;
   // Relative to the walls seen last: what the motion adds.
-  const Eigen::Matrix3d& c = since_.covariance;
+  const Eigen::Matrix3d& c = search_covariance_;
   search.largest_translation = std::min(1.5, 0.1 + 3.5 * std::sqrt(std::max(c(0, 0), c(1, 1))));
   search.largest_turn = std::min(0.8, 0.05 + 3.5 * std::sqrt(c(2, 2)));
   const std::vector<Alignment> found = align(first, second, search);
@@ -343,10 +345,14 @@ void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization&
   const double refuted = seen_through(posterior.pose);
   const bool contradicted =
       matched < 0.5 * total && refuted > std::max({matched, 0.4 * total, least_refuted});
-  fits_ = !contradicted && (has_odometry_ || !pairs.empty() || measurements_.size() < 2);
+  // Neighbouring scans see the same walls.
+  const Pose2 step = between(last_pose_, posterior.pose);
+  const bool jumped = matched < 0.2 * total && measurements_.size() > 1 &&
+                      std::hypot(step.x, step.y) < short_step && std::abs(step.theta) < short_turn;
+  fits_ = !contradicted && !jumped && (has_odometry_ || !pairs.empty() || measurements_.size() < 2);
   if (lost_) {
     result.status = LocalizationStatus::lost;
-  } else if (!fits_ || weak || matched < 0.35 * total) {
+  } else if (!fits_ || weak || matched < 0.5 * total || refuted > matched) {
     result.status = LocalizationStatus::ambiguous;
   } else {
     result.status = LocalizationStatus::tracking;
@@ -625,21 +631,27 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     has_odometry_ = input.motion.has_value();
     if (input.motion) {
       since_ = compose_correlated(since_, *input.motion);
+      search_covariance_ = since_.covariance;
     } else {
       // From the last scan on; the spread grows with the time since the last keyframe.
       const Pose2 pose = compose(last_pose_, after_twist(velocity_, seconds));
       const double position = parameters_.speed_stddev * seconds;
       const double heading = parameters_.turn_stddev * seconds;
       since_.pose = between(belief_.pose, pose);
-      since_.covariance.diagonal() +=
-          Eigen::Vector3d(position * position, position * position, heading * heading);
+      const Eigen::Vector3d variances(position * position, position * position, heading * heading);
+      since_.covariance.diagonal() += variances;
+      // Where the last scan was matched, lines are looked for around it; the estimate takes no more
+      // from it than where to look, so that no scan counts twice.
+      if (well_matched_) search_covariance_.setZero();
+      search_covariance_.diagonal() += variances;
     }
     Belief posterior;
     if (lost_ && relocalize(result)) fits_ = true;
-    const Belief prior = predict();
-    Pairs pairs = find_pairs(prior);
+    const Belief prior = predict(since_.covariance);
+    Pairs pairs = find_pairs(predict(search_covariance_));
     update(prior, pairs, posterior);
     judge(posterior, pairs, result);
+    well_matched_ = length_of(pairs) >= 0.5 * length_of_scan() && !pairs.empty();
     if (fits_) {
       lost_since_ = input.stamp;
       unfit_scans_ = 0;

@@ -81,7 +81,7 @@ class Landmarks {
   };
 
   [[nodiscard]] LineLandmark wall(const Belief& belief, std::size_t place) const;
-  [[nodiscard]] Belief predict() const;
+  [[nodiscard]] Belief predict(const Eigen::Matrix3d& motion_covariance) const;
   [[nodiscard]] Pairs associate(Belief belief, double widest_direction, double widest_offset) const;
   [[nodiscard]] Pairs find_pairs(const Belief& prior) const;
   [[nodiscard]] double length_of(const Pairs& pairs) const;
@@ -98,10 +98,12 @@ class Landmarks {
 
   Parameters parameters_;
   LandmarkGraph graph_;
-  std::vector<std::size_t> active_;  // landmarks of the filter
-  Belief belief_;                    // at the last keyframe
-  PoseEstimate since_;               // motion since the last keyframe
-  Pose2 last_pose_;                  // of the last scan
+  std::vector<std::size_t> active_;                              // landmarks of the filter
+  Belief belief_;                                                // at the last keyframe
+  PoseEstimate since_;                                           // motion since the last keyframe
+  Eigen::Matrix3d search_covariance_ = Eigen::Matrix3d::Zero();  // of it, to find lines by
+  bool well_matched_ = true;
+  Pose2 last_pose_;  // of the last scan
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   std::optional<double> stamp_;
   double lost_since_ = 0.0;  // [s] stamp of the first scan that did not fit
