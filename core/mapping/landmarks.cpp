@@ -177,7 +177,8 @@ Landmarks::Pairs Landmarks::associate(Belief belief, double widest_direction,
 }
 
 /// All lines together, where the pose is too uncertain for one at a time.
-Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief) const {
+Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief, double& weakening) const {
+  weakening = 1.0;
   std::vector<SidedSegment> first, second;
   for (const LineMeasurement& m : measurements_) first.push_back(sided(m));
   for (std::size_t k = 0; k < active_.size(); ++k) second.push_back(sided(wall(belief, k)));
@@ -185,11 +186,20 @@ Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief) const {
   search.center = belief.pose;
   // Relative to the walls seen last: what the motion adds.
   const Eigen::Matrix3d& c = search_covariance_;
-  search.largest_translation = std::min(1.5, 0.1 + 3.5 * std::sqrt(std::max(c(0, 0), c(1, 1))));
-  search.largest_turn = std::min(0.8, 0.05 + 3.5 * std::sqrt(c(2, 2)));
+  // Motion that slips is farther off than its covariance says.
+  search.largest_translation =
+      std::clamp(0.1 + 3.5 * std::sqrt(std::max(c(0, 0), c(1, 1))), 0.4, 1.5);
+  search.largest_turn = std::clamp(0.05 + 3.5 * std::sqrt(c(2, 2)), 0.4, 0.8);
   const std::vector<Alignment> found = align(first, second, search);
   if (found.empty() || found.front().pairs.size() < 3) return {};
   if (found.size() > 1 && found[1].support > 0.8 * found[0].support) return {};
+  // The motion counts less where the walls refute it.
+  const Pose2 step = between(belief_.pose, found.front().pose);
+  const Eigen::Vector3d off(step.x - since_.pose.x, step.y - since_.pose.y,
+                            normalized_angle(step.theta - since_.pose.theta));
+  const Eigen::Matrix3d& s = since_.covariance;
+  const double squared = off.dot(s.ldlt().solve(off));
+  if (squared > 3.0) weakening = squared / 3.0;
   return found.front().pairs;
 }
 
@@ -305,19 +315,28 @@ double Landmarks::length_of_scan() const {
 
 /// One line at a time; where that finds few, all lines together; where that does, too, one line at
 /// a time in wide gates. With the pose that they give, the rest is looked for.
-Landmarks::Pairs Landmarks::find_pairs(const Belief& prior) const {
+Landmarks::Pairs Landmarks::find_pairs(const Belief& prior, double& weakening) const {
   const double total = length_of_scan();
   Pairs pairs = associate(prior, widest_direction, widest_offset);
-  const auto improve = [&](Pairs found) {
+  weakening = 1.0;
+  const auto improve = [&](Pairs found, double weaker) {
     Belief posterior;
-    if (found.empty() || !update(prior, found, posterior)) return;
+    const Belief from = weaker > 1.0 ? predict(weaker * search_covariance_) : prior;
+    if (found.empty() || !update(from, found, posterior)) return;
     Pairs again = associate(posterior, widest_direction, widest_offset);
     if (length_of(again) > length_of(found)) found = std::move(again);
-    if (length_of(found) > 1.2 * length_of(pairs)) pairs = std::move(found);
+    if (length_of(found) > 1.2 * length_of(pairs)) {
+      pairs = std::move(found);
+      weakening = weaker;
+    }
   };
-  if (length_of(pairs) < 0.5 * total) improve(associate_by_alignment(prior));
   if (length_of(pairs) < 0.5 * total) {
-    improve(associate(prior, wide_factor * widest_direction, wide_factor * widest_offset));
+    double weaker = 1.0;
+    Pairs aligned = associate_by_alignment(prior, weaker);
+    if (!aligned.empty()) improve(std::move(aligned), weaker);
+  }
+  if (length_of(pairs) < 0.5 * total) {
+    improve(associate(prior, wide_factor * widest_direction, wide_factor * widest_offset), 1.0);
   }
   return pairs;
 }
@@ -647,8 +666,10 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     }
     Belief posterior;
     if (lost_ && relocalize(result)) fits_ = true;
+    double weakening = 1.0;
+    Pairs pairs = find_pairs(predict(search_covariance_), weakening);
+    since_.covariance *= weakening;
     const Belief prior = predict(since_.covariance);
-    Pairs pairs = find_pairs(predict(search_covariance_));
     update(prior, pairs, posterior);
     judge(posterior, pairs, result);
     well_matched_ = length_of(pairs) >= 0.5 * length_of_scan() && !pairs.empty();

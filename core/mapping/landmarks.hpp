@@ -83,10 +83,10 @@ class Landmarks {
   [[nodiscard]] LineLandmark wall(const Belief& belief, std::size_t place) const;
   [[nodiscard]] Belief predict(const Eigen::Matrix3d& motion_covariance) const;
   [[nodiscard]] Pairs associate(Belief belief, double widest_direction, double widest_offset) const;
-  [[nodiscard]] Pairs find_pairs(const Belief& prior) const;
+  [[nodiscard]] Pairs find_pairs(const Belief& prior, double& weakening) const;
   [[nodiscard]] double length_of(const Pairs& pairs) const;
   [[nodiscard]] double length_of_scan() const;
-  [[nodiscard]] Pairs associate_by_alignment(const Belief& belief) const;
+  [[nodiscard]] Pairs associate_by_alignment(const Belief& belief, double& weakening) const;
   bool update(const Belief& prior, Pairs& pairs, Belief& posterior) const;
   void judge(const Belief& posterior, const Pairs& pairs, Localization& result);
   void add_keyframe(const Belief& posterior, const Pairs& pairs);
