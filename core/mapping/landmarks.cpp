@@ -24,6 +24,7 @@ constexpr double widest_direction = 0.10;    // [rad]
 constexpr double wide_factor = 4.0;          // where nothing else fits
 constexpr double lost_after = 0.6;           // [s]
 constexpr int lost_scans = 3;                // in a row, whatever the time
+constexpr double motion_gate = 16.27;        // chi square of 3, 99.9 %
 constexpr double short_step = 0.25;          // [m]
 constexpr double short_turn = 0.35;          // [rad]
 constexpr double least_refuted = 1.0;        // [m]
@@ -200,6 +201,8 @@ Landmarks::Pairs Landmarks::associate_by_alignment(const Belief& belief, double&
   const Eigen::Matrix3d& s = since_.covariance;
   const double squared = off.dot(s.ldlt().solve(off));
   if (squared > 3.0) weakening = squared / 3.0;
+  // Put elsewhere, a robot finds walls that look alike: nearly all of the scan has to fit.
+  if (squared > motion_gate && found.front().support < 0.7 * length_of_scan()) return {};
   return found.front().pairs;
 }
 
