@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fitting/fit.hpp"
 #include "core/geometry/angle.hpp"
 
 namespace quoin {
@@ -25,20 +26,15 @@ std::pair<double, double> extent(const Pose2& pose, const LineLandmark& landmark
 }  // namespace
 
 LineMeasurement line_measurement(const LineSegment& line, double flatness_stddev) {
-  const Eigen::Matrix2d& c = line.estimate.covariance;
-  const double alpha = line.estimate.line.alpha;
   LineMeasurement result;
-  result.alpha = alpha;
+  result.alpha = line.estimate.line.alpha;
   result.middle = 0.5 * (line.start + line.end);
-  result.half_length = 0.5 * (line.end - line.start).norm();
-  const double t = -std::sin(alpha) * result.middle.x() + std::cos(alpha) * result.middle.y();
-  const double mixed = c(0, 1) - t * c(0, 0);
-  result.covariance << c(0, 0), mixed, mixed, c(1, 1) - 2.0 * t * c(0, 1) + t * t * c(0, 0);
-  // Two halves that are off on their own, by the distance of their middles.
-  const double variance = flatness_stddev * flatness_stddev;
-  const double half = std::max(result.half_length, 1e-3);
-  result.covariance(0, 0) += 2.0 * variance / (half * half);
-  result.covariance(1, 1) += 0.5 * variance;
+  const double length = (line.end - line.start).norm();
+  result.half_length = 0.5 * length;
+  const Eigen::Vector2d normal = line.estimate.line.normal();
+  const double along = normal.x() * result.middle.y() - normal.y() * result.middle.x();
+  result.covariance =
+      line.estimate.about(along).covariance + flatness_covariance(flatness_stddev, length);
   return result;
 }
 

@@ -21,8 +21,8 @@ struct LineMeasurement {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
-/// The covariance of (alpha, r) moved to the middle. `flatness_stddev` [m] is how far both halves
-/// of a wall are off a line on their own; it does not average out with the number of points.
+/// Of a line as it was fitted. `flatness_stddev` [m] is what its covariance does not hold yet of
+/// how far walls are off a line by themselves (`flatness_covariance`).
 [[nodiscard]] LineMeasurement line_measurement(const LineSegment& line, double flatness_stddev);
 
 /// A wall of the map: normal(phi) . (p - anchor) = offset. The normal points away from the side
