@@ -11,8 +11,8 @@
 
 #include "core/circles/circle_fitters.hpp"
 #include "core/corners/corner_finders.hpp"
-#include "core/evaluation/line_coverage.hpp"
 #include "core/evaluation/circle_consistency.hpp"
+#include "core/evaluation/line_coverage.hpp"
 #include "core/evaluation/loop_coverage.hpp"
 #include "core/evaluation/papers/cwlf_paper.hpp"
 #include "core/evaluation/papers/pca_paper.hpp"
