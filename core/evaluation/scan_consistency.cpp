@@ -60,10 +60,11 @@ std::optional<ScanConsistency::Fitted> ScanConsistency::fit(const PointsView& po
                                                             const SensorModel& sensor) const {
   const FitResult result = fitter_(points, sensor);
   if (!result.ok()) return std::nullopt;
-  Fitted fitted{line_segment(result.estimate, result.normal, points), result.estimate, {}};
+  Fitted fitted{line_segment(result.estimate, result.normal, points), {}, {}};
+  add_flatness(fitted.line, sensor.flatness_stddev);
   fitted.middle = 0.5 * (fitted.line.start + fitted.line.end);
-  scale_to_residuals(fitted.reported, chi_square(result.estimate.line, points, sensor),
-                     points.size());
+  const double residuals = chi_square(result.estimate.line, points, sensor);
+  fitted.reported = true_segment(result, points, sensor, residuals).estimate;
   return fitted;
 }
 

@@ -86,7 +86,7 @@ class ScanConsistency {
 
  private:
   struct Fitted {
-    LineSegment line;        // flatness left out
+    LineSegment line;        // as modelled
     LineEstimate reported;   // the same, scaled to its residuals
     Eigen::Vector2d middle;  // [m]
   };
