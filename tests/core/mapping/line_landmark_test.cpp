@@ -32,10 +32,10 @@ TEST(LineMeasurement, HasTheCovarianceAboutTheMiddle) {
   EXPECT_NEAR(m.covariance(0, 0), direction, 1e-15);
   EXPECT_NEAR(m.covariance(0, 1), 0.0, 1e-15);
   EXPECT_NEAR(m.covariance(1, 1), offset, 1e-15);
-  // Halves of 1 m that are off by 10 mm each on their own.
+  // 2 m of wall that are uneven by 10 mm: 12 / length^2 of the variance for the direction.
   const LineMeasurement uneven = line_measurement(line, 0.01);
-  EXPECT_NEAR(uneven.covariance(0, 0) - direction, 2e-4, 1e-12);
-  EXPECT_NEAR(uneven.covariance(1, 1) - offset, 0.5e-4, 1e-12);
+  EXPECT_NEAR(uneven.covariance(0, 0) - direction, 3e-4, 1e-12);
+  EXPECT_NEAR(uneven.covariance(1, 1) - offset, 1e-4, 1e-12);
 }
 
 TEST(LineResidual, HasTheDerivativesOfCentralDifferences) {
