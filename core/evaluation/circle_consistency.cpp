@@ -48,12 +48,12 @@ struct RmseOverBound {
   }
 };
 
-struct Variances {
+struct RayVariances {
   double across;  // [m^2] of the distance from the circle
   double along;   // [m^2]
 };
 
-Variances variances_at(double cosine, double sine, double range, const SensorModel& noise) {
+RayVariances variances_at(double cosine, double sine, double range, const SensorModel& noise) {
   const double radial = noise.range_variance(range);
   const double turned = range * noise.bearing_stddev * range * noise.bearing_stddev;
   return {radial * cosine * cosine + turned * sine * sine,

@@ -105,11 +105,13 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
       cost += 0.5 * error.dot(information * error);
       const Eigen::Matrix3d weighted_before = by_before.transpose() * information;
       const Eigen::Matrix3d weighted_pose = by_pose.transpose() * information;
-      equations.add(3 * (k - 1), 3 * (k - 1), Eigen::Matrix3d(weighted_before * by_before));
-      equations.add(3 * k, 3 * (k - 1), Eigen::Matrix3d(weighted_pose * by_before));
-      equations.add(3 * k, 3 * k, Eigen::Matrix3d(weighted_pose * by_pose));
-      equations.gradient.segment<3>(3 * (k - 1)) += weighted_before * error;
-      equations.gradient.segment<3>(3 * k) += weighted_pose * error;
+      const int earlier = 3 * (k - 1);
+      const int own = 3 * k;
+      equations.add(earlier, earlier, Eigen::Matrix3d(weighted_before * by_before));
+      equations.add(own, earlier, Eigen::Matrix3d(weighted_pose * by_before));
+      equations.add(own, own, Eigen::Matrix3d(weighted_pose * by_pose));
+      equations.gradient.segment<3>(earlier) += weighted_before * error;
+      equations.gradient.segment<3>(own) += weighted_pose * error;
     }
     for (const Observation& observation : keyframe.observations) {
       const LineResidual residual =
@@ -126,10 +128,11 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
       const int at = 3 * poses + 2 * static_cast<int>(observation.landmark);
       const Eigen::Matrix<double, 3, 2> weighted_pose = residual.by_pose.transpose() * information;
       const Eigen::Matrix2d weighted_landmark = residual.by_landmark.transpose() * information;
-      equations.add(3 * k, 3 * k, Eigen::Matrix3d(weighted_pose * residual.by_pose));
-      equations.add(at, 3 * k, Eigen::Matrix<double, 2, 3>(weighted_landmark * residual.by_pose));
+      const int own = 3 * k;
+      equations.add(own, own, Eigen::Matrix3d(weighted_pose * residual.by_pose));
+      equations.add(at, own, Eigen::Matrix<double, 2, 3>(weighted_landmark * residual.by_pose));
       equations.add(at, at, Eigen::Matrix2d(weighted_landmark * residual.by_landmark));
-      equations.gradient.segment<3>(3 * k) += weighted_pose * residual.value;
+      equations.gradient.segment<3>(own) += weighted_pose * residual.value;
       equations.gradient.segment<2>(at) += weighted_landmark * residual.value;
     }
   }
@@ -165,9 +168,10 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
   if (!change.allFinite()) return cost;
   for (int k = 0; k < poses; ++k) {
     Pose2& pose = keyframes_[static_cast<std::size_t>(k)].pose;
-    pose.x += change(3 * k);
-    pose.y += change(3 * k + 1);
-    pose.theta = normalized_angle(pose.theta + change(3 * k + 2));
+    const int row = 3 * k;
+    pose.x += change(row);
+    pose.y += change(row + 1);
+    pose.theta = normalized_angle(pose.theta + change(row + 2));
   }
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const int at = 3 * poses + 2 * static_cast<int>(i);

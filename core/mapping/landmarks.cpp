@@ -18,7 +18,7 @@ namespace {
 constexpr double gate = 13.815510557964274;  // chi square of 2, 99.9 %
 constexpr double near_gate = 30.0;           // what is nearer than this is no new wall
 constexpr double same_wall_gate = 9.21;      // chi square of 2, 99 %
-constexpr double huber = 2.5;                // standard deviations
+constexpr double largest_trusted = 2.5;      // standard deviations
 constexpr double widest_offset = 0.30;       // [m] standard deviation of an innovation
 constexpr double widest_direction = 0.10;    // [rad]
 constexpr double wide_factor = 4.0;          // where nothing else fits
@@ -234,7 +234,8 @@ bool Landmarks::update(const Belief& prior, Pairs& pairs, Belief& posterior) con
             prior.covariance.middleCols<2>(at) * residual.by_landmark.transpose();
         const double deviations =
             std::sqrt(residual.value.dot(m.covariance.inverse() * residual.value));
-        const double inflation = round > 0 && deviations > huber ? deviations / huber : 1.0;
+        const double inflation =
+            round > 0 && deviations > largest_trusted ? deviations / largest_trusted : 1.0;
         noise.block<2, 2>(row, row) = inflation * m.covariance;
         // The residual where the prior is, linearized here.
         Eigen::Vector3d back(prior.pose.x - posterior.pose.x, prior.pose.y - posterior.pose.y,

@@ -12,7 +12,7 @@ namespace quoin {
 namespace {
 
 constexpr double normal_97_5 = 1.959963984540054;
-constexpr double chi_square_2_95 = 5.991464547107979;
+constexpr double largest_inside95 = 5.991464547107979;
 constexpr std::size_t fewest_lines = 100;
 // What noise is known to at best; less is not worth a word.
 constexpr double worth_a_word = 1.1;
@@ -76,7 +76,7 @@ LineScatter RunningScatter::scatter(double time) {
   scatter.split_lines = splits_.size();
   scatter.split_inside95 =
       proportion(static_cast<std::size_t>(std::ranges::count_if(
-                     splits_, [](const Value& value) { return value.value <= chi_square_2_95; })),
+                     splits_, [](const Value& value) { return value.value <= largest_inside95; })),
                  splits_.size());
   return scatter;
 }
