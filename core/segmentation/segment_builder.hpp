@@ -22,7 +22,8 @@ class SegmentBuilder {
   explicit SegmentBuilder(const SegmentationParameters& parameters);
 
   /// Finds the clusters of a new scan and clears the pieces of the last. Returns the points that
-  /// the method works on: those of the scan, but for strays and what stands for no return.
+  /// the method works on: those of the scan, but for strays and what stands for no return. The scan
+  /// has to stay until `finish`.
   [[nodiscard]] PointsView start(const PointsView& scan, const SensorModel& sensor);
 
   /// Runs of points without a break of the surface, ascending; together they are all of them.

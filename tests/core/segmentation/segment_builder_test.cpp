@@ -52,7 +52,8 @@ TEST(SegmentBuilder, CountsPointsOfNoReturn) {
   }
   SegmentBuilder builder{{}};
   Segmentation found;
-  (void)builder.start(points_from(bearings, ranges), {});
+  const Points with_fill = points_from(bearings, ranges);
+  (void)builder.start(with_fill, {});
   builder.finish(found);
   EXPECT_EQ(found.no_return, 40U);
   (void)builder.start(wall, {});
