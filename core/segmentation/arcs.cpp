@@ -236,15 +236,13 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
   pieces.resize(kept);
 }
 
-void ThinThings::find(const PointsView& scan, const SensorModel& sensor,
+void ThinThings::find(const PointsView& scan, const SensorModel& sensor, const Tolerance& tolerance,
                       const BreakpointDetector& breakpoints, double flatness, Segmentation& found) {
   taken_.assign(found.segments.begin(), found.segments.end());
   taken_.insert(taken_.end(), found.arcs.begin(), found.arcs.end());
-  std::sort(taken_.begin(), taken_.end(),
-            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  std::sort(taken_.begin(), taken_.end(), begins_before);
   const std::size_t before = found.arcs.size();
-  const Tolerance unused;  // is for pairs of pieces
-  const ArcFinder finder(scan, sensor, unused, flatness);
+  const ArcFinder finder(scan, sensor, tolerance, flatness);
   const ThinSearch search{scan, finder, breakpoints, coarse_, found.arcs};
   std::size_t begin = 0;
   for (const Segment& run : taken_) {
@@ -260,8 +258,7 @@ void ThinThings::find(const PointsView& scan, const SensorModel& sensor,
     k = next;
   }
   if (found.arcs.size() == before) return;
-  std::sort(found.arcs.begin(), found.arcs.end(),
-            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  std::sort(found.arcs.begin(), found.arcs.end(), begins_before);
   // What is left over beside an arc may be more of it.
   std::size_t kept = 0;
   for (const Segment& arc : found.arcs) {

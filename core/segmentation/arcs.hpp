@@ -26,7 +26,7 @@ void find_arcs(const PointsView& points, const SensorModel& sensor, const Tolera
 class ThinThings {
  public:
   /// Adds them to `found.arcs`, which stay ascending. `breakpoints` has seen the scan.
-  void find(const PointsView& scan, const SensorModel& sensor,
+  void find(const PointsView& scan, const SensorModel& sensor, const Tolerance& tolerance,
             const BreakpointDetector& breakpoints, double flatness, Segmentation& found);
 
  private:

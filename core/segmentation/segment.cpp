@@ -42,8 +42,7 @@ void set_aside(Points& points, Segmentation& found) {
         first + static_cast<std::size_t>(at - found.foreign.begin());  // of its first point
     run = is_foreign ? Segment{moved, moved + run.size()} : without(found.foreign, run);
   }
-  std::sort(found.arcs.begin(), found.arcs.end(),
-            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  std::sort(found.arcs.begin(), found.arcs.end(), begins_before);
   for (std::size_t k = 0; k < found.foreign.size(); ++k) found.foreign[k] = first + k;
 }
 

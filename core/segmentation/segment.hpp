@@ -22,6 +22,11 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
+/// The order of disjoint runs along a scan.
+[[nodiscard]] inline bool begins_before(const Segment& a, const Segment& b) {
+  return a.begin < b.begin;
+}
+
 /// What a segmenter finds in a scan.
 struct Segmentation {
   std::vector<Segment> segments;  ///< straight walls: ascending, disjoint

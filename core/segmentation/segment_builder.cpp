@@ -209,8 +209,7 @@ void SegmentBuilder::add(const Segment& piece) {
 }
 
 void SegmentBuilder::add_all(std::vector<Segment>& pieces) {
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Segment& a, const Segment& b) { return a.begin < b.begin; });
+  std::sort(pieces.begin(), pieces.end(), begins_before);
   for (const Segment& piece : pieces) add(piece);
 }
 
@@ -243,7 +242,7 @@ void SegmentBuilder::finish(Segmentation& found) {
   select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found);
   if (!removed_.empty()) to_scan(found);
   if (parameters_.merge) {
-    thin_things_.find(scan_, sensor_, breakpoints_, parameters_.flatness, found);
+    thin_things_.find(scan_, sensor_, tolerance_, breakpoints_, parameters_.flatness, found);
   }
 }
 

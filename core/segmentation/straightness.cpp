@@ -170,51 +170,51 @@ bool Straightener::is_part(const PointsView& points, const Wall& wall,
   return 2 * beyond < own.size();
 }
 
-/// How many of the last walls are passed over to join the one before them to this one; nothing when
-/// none is one with it.
-std::optional<std::size_t> Straightener::find_partner(const PointsView& points, const Wall& wall) {
+/// Nothing when none of the last walls is one with this one.
+std::optional<Straightener::Partner> Straightener::find_partner(const PointsView& points,
+                                                                const Wall& wall) {
   const std::size_t most = std::min(joined_.size(), most_passed + 1);
   for (std::size_t passed = most; passed-- > 0;) {
     const std::span<const Wall> last = std::span<const Wall>(joined_).last(passed + 1);
     const Wall& partner = last.front();
     const std::size_t known = outside_.size();
-    if (!join(points, partner, wall, outside_)) continue;
-    Moments both = partner.moments;
-    both += wall.moments;
-    const NormalLine line = orthogonal_line(both).line;
+    const auto line = join(points, partner, wall, outside_);
+    if (!line) continue;
     const std::span<const Wall> between = last.subspan(1);
     if (std::all_of(between.begin(), between.end(),
-                    [&](const Wall& each) { return is_part(points, each, line); })) {
-      return passed;
+                    [&](const Wall& each) { return is_part(points, each, *line); })) {
+      return Partner{passed, *line};
     }
     outside_.resize(known);
   }
   return std::nullopt;
 }
 
-/// Whether both are one wall; what is between them and not on it is added to `foreign`.
-bool Straightener::join(const PointsView& points, const Wall& first, const Wall& second,
-                        std::vector<std::size_t>& foreign) const {
-  if (first.piece.round || second.piece.round) return false;
+/// The line of both when they are one wall; what is between them and not on it is added to
+/// `foreign`.
+std::optional<NormalLine> Straightener::join(const PointsView& points, const Wall& first,
+                                             const Wall& second,
+                                             std::vector<std::size_t>& foreign) const {
+  if (first.piece.round || second.piece.round) return std::nullopt;
   const Segment& a = first.piece.segment;
   const Segment& b = second.piece.segment;
   if (squared_distance(points, a.end - 1, b.begin) >
       parameters_.max_line_gap * parameters_.max_line_gap) {
-    return false;
+    return std::nullopt;
   }
   // A cheap test first: at a corner the outer end of the shorter one is far from the other wall.
   const bool first_is_longer = first.moments.weight > second.moments.weight;
   const NormalLine& longer = first_is_longer ? first.line : second.line;
   const std::size_t outer = first_is_longer ? b.end - 1 : a.begin;
   const double off = longer.distance(points.x[outer], points.y[outer]);
-  if (off * off > far_off * far_off * tolerance_.largest) return false;
+  if (off * off > far_off * far_off * tolerance_.largest) return std::nullopt;
   const auto difference = squared_mahalanobis(first.moments, second.moments, tolerance_);
-  if (!difference || *difference > same_line) return false;
+  if (!difference || *difference > same_line) return std::nullopt;
   Moments both = first.moments;
   both += second.moments;
   const NormalLine line = orthogonal_line(both).line;
   for (const std::size_t end : {a.begin, a.end - 1, b.begin, b.end - 1}) {
-    if (is_beyond(line, points, end, tolerance_)) return false;
+    if (is_beyond(line, points, end, tolerance_)) return std::nullopt;
   }
   // What is seen behind the line is seen through an opening.
   const std::size_t known = foreign.size();
@@ -226,9 +226,9 @@ bool Straightener::join(const PointsView& points, const Wall& first, const Wall&
   }
   if (2 * behind > b.begin - a.end) {
     foreign.resize(known);
-    return false;
+    return std::nullopt;
   }
-  return true;
+  return line;
 }
 
 /// What stood in front of a wall near its end has cut off a few points there.
@@ -313,17 +313,17 @@ bool Straightener::run(const PointsView& points, const SensorModel& sensor,
 
   joined_.clear();
   for (const Wall& wall : walls_) {
-    const auto passed = find_partner(points, wall);
-    if (!passed) {
+    const auto partner = find_partner(points, wall);
+    if (!partner) {
       joined_.push_back(wall);
       continue;
     }
-    joined_.resize(joined_.size() - *passed);
+    joined_.resize(joined_.size() - partner->passed);
     Wall& last = joined_.back();
     last.piece.segment.end = wall.piece.segment.end;
     last.piece.line.reset();
     last.moments += wall.moments;
-    last.line = orthogonal_line(last.moments).line;
+    last.line = partner->line;
     changed = true;
   }
   if (many_strays) {

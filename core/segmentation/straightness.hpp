@@ -38,15 +38,22 @@ class Straightener {
     NormalLine line;
   };
 
+  /// The wall before as many others that a wall is one with.
+  struct Partner {
+    std::size_t passed;
+    NormalLine line;  // of both
+  };
+
   void add(const Piece& piece, const Moments& moments, const NormalLine& line);
   void split(const PointsView& points, const Piece& piece);
   [[nodiscard]] bool trim(const PointsView& points, const Segment& range);
   [[nodiscard]] std::size_t best_split(const PointsView& points, const Segment& range);
   [[nodiscard]] bool is_part(const PointsView& points, const Wall& wall,
                              const NormalLine& line) const;
-  [[nodiscard]] std::optional<std::size_t> find_partner(const PointsView& points, const Wall& wall);
-  [[nodiscard]] bool join(const PointsView& points, const Wall& first, const Wall& second,
-                          std::vector<std::size_t>& foreign) const;
+  [[nodiscard]] std::optional<Partner> find_partner(const PointsView& points, const Wall& wall);
+  [[nodiscard]] std::optional<NormalLine> join(const PointsView& points, const Wall& first,
+                                               const Wall& second,
+                                               std::vector<std::size_t>& foreign) const;
 
   [[nodiscard]] bool grow(const PointsView& points);
   void leave_out_doubtful(const PointsView& points);

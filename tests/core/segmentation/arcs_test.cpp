@@ -88,7 +88,7 @@ TEST(ThinThings, WhatBendsAroundTheSensorIsNone) {
   compute_cartesian(points);
   coarse.assign(points);
   (void)breakpoints.find(coarse, noise, clusters);
-  thin_things.find(points, noise, breakpoints, 0.01, found);
+  thin_things.find(points, noise, Tolerance({}, noise, points), breakpoints, 0.01, found);
   EXPECT_THAT(found.arcs, IsEmpty());
 }
 
