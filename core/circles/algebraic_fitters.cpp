@@ -28,7 +28,7 @@ CircleFit fit_algebraic(const PointsView& points, const SensorModel& sensor,
   if (points.size() < 3) return CircleFit::failed(CircleFailure::too_few_points);
   const auto found = fit_algebraic_circle(points, constraint);
   if (!found) return CircleFit::failed(CircleFailure::degenerate);
-  const PolarVariances variances(sensor);
+  const WeightVariances variances(sensor);
   const auto noise = equal_weights(points, *found, variances);
   if (!noise) return CircleFit::failed(CircleFailure::degenerate);
   const Eigen::Vector3d bias = bias_of(*noise, constraint);

@@ -20,7 +20,7 @@ struct Incidence {
 
 [[gnu::always_inline]] inline Incidence incidence(double x, double y, double cosine, double sine,
                                                   double range, const Circle& circle,
-                                                  const PolarVariances& variances) {
+                                                  const WeightVariances& variances) {
   const double dx = x - circle.center.x();
   const double dy = y - circle.center.y();
   const double distance = std::sqrt(dx * dx + dy * dy);
@@ -33,16 +33,16 @@ struct Incidence {
           distance,
           nx * cosine + ny * sine,
           nx * sine - ny * cosine,
-          variances.range + variances.range_per_square * square,
+          variances.range_at(square),
           variances.bearing * square};
 }
 
 QUOIN_MULTIVERSION
 void add_up(const double* __restrict x, const double* __restrict y, const double* __restrict cosine,
             const double* __restrict sine, const double* __restrict range, std::size_t count,
-            const Circle& circle, const PolarVariances& variances, CircleSums& out) {
+            const Circle& circle, const WeightVariances& variances, CircleSums& out) {
   const Circle c = circle;
-  const PolarVariances noise = variances;
+  const WeightVariances noise = variances;
   const double curvature = 1.0 / c.radius;
   const double half_curvature = 0.5 * curvature;
   const double second_order = 1.5 * curvature * curvature;
@@ -64,7 +64,7 @@ void add_up(const double* __restrict x, const double* __restrict y, const double
     const double foot_sine = p.sine + p.cosine * turn;
     const double foot_cc = foot_cosine * foot_cosine;
     const double foot_ss = foot_sine * foot_sine;
-    const double range_variance = noise.range + noise.range_per_square * r * r;
+    const double range_variance = noise.range_at(r * r);
     const double across_variance = noise.bearing * r * r;
     const double foot_u = range_variance * foot_ss + across_variance * foot_cc;
     const double w = 1.0 / (range_variance * foot_cc + across_variance * foot_ss +
@@ -103,9 +103,9 @@ QUOIN_MULTIVERSION
 void add_up_equal(const double* __restrict x, const double* __restrict y,
                   const double* __restrict cosine, const double* __restrict sine,
                   const double* __restrict range, std::size_t count, const Circle& circle,
-                  const PolarVariances& variances, EqualSums& out) {
+                  const WeightVariances& variances, EqualSums& out) {
   const Circle c = circle;
-  const PolarVariances noise = variances;
+  const WeightVariances noise = variances;
   const double second_order = 0.5 / (c.radius * c.radius);
   CircleSums h;
   CircleSums m;
@@ -146,7 +146,7 @@ void add_up_equal(const double* __restrict x, const double* __restrict y,
 }  // namespace
 
 CircleSums circle_sums(const PointsView& points, const Circle& circle,
-                       const PolarVariances& variances) {
+                       const WeightVariances& variances) {
   CircleSums sums;
   add_up(points.x.data(), points.y.data(), points.cosine.data(), points.sine.data(),
          points.range.data(), points.size(), circle, variances, sums);
@@ -173,7 +173,7 @@ std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& matrix) {
 }
 
 std::optional<EqualWeights> equal_weights(const PointsView& points, const Circle& circle,
-                                          const PolarVariances& variances) {
+                                          const WeightVariances& variances) {
   EqualSums sums;
   add_up_equal(points.x.data(), points.y.data(), points.cosine.data(), points.sine.data(),
                points.range.data(), points.size(), circle, variances, sums);
@@ -191,7 +191,7 @@ void add_range_bias(const PointsView& points, const SensorModel& sensor, bool we
                     CircleEstimate& estimate) {
   const double bias = sensor.range_bias_stddev;
   if (!(bias > 0.0)) return;
-  const PolarVariances variances(sensor);
+  const WeightVariances variances(sensor);
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -2,28 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "core/circles/circle_fit.hpp"
+#include "core/fitting/point_sums.hpp"
 #include "core/sensor/points.hpp"
 
 namespace quoin {
-
-/// Variances that the points of an arc are weighted with. A sensor model may say that there is no
-/// noise; a range is never taken to be better than a micrometre nor a bearing than a nanoradian.
-struct PolarVariances {
-  double range;             ///< [m^2] the part that all ranges have
-  double range_per_square;  ///< over the squared range
-  double bearing;           ///< [rad^2]
-
-  explicit PolarVariances(const SensorModel& sensor)
-      : range(std::max(sensor.range_stddev * sensor.range_stddev, 1e-12)),
-        range_per_square(sensor.range_stddev_per_metre * sensor.range_stddev_per_metre),
-        bearing(std::max(sensor.bearing_stddev * sensor.bearing_stddev, 1e-18)) {}
-};
 
 /// Sums over the points of an arc with the weights 1 / v, g = (normal_x, normal_y, 1) being the
 /// gradient of the distance d of a point from the circle and v the variance of d:
@@ -52,7 +39,7 @@ struct CircleSums {
 };
 
 [[nodiscard]] CircleSums circle_sums(const PointsView& points, const Circle& circle,
-                                     const PolarVariances& variances);
+                                     const WeightVariances& variances);
 
 /// What the noise makes of a circle whose points have one weight.
 struct EqualWeights {
@@ -68,7 +55,7 @@ struct EqualWeights {
 /// bias = H^-1 sum of ((3 v + u) normal / 2 + c tangent, (v + u) / 2) / radius.
 [[nodiscard]] std::optional<EqualWeights> equal_weights(const PointsView& points,
                                                         const Circle& circle,
-                                                        const PolarVariances& variances);
+                                                        const WeightVariances& variances);
 
 /// Inverse of a symmetric matrix by its cofactors; nothing when it is not positive definite beyond
 /// rounding.

@@ -33,7 +33,7 @@ CircleFit MaximumLikelihoodCircle::operator()(const PointsView& points,
   if (points.size() < 3) return CircleFit::failed(CircleFailure::too_few_points);
   const auto start = fit_algebraic_circle(points, CircleConstraint::taubin);
   if (!start) return CircleFit::failed(CircleFailure::degenerate);
-  const PolarVariances variances(sensor);
+  const WeightVariances variances(sensor);
   CircleEstimate estimate;
   Circle& circle = estimate.circle;
   circle = *start;
