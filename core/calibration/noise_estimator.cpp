@@ -11,8 +11,8 @@
 
 #include "core/calibration/quantization.hpp"
 #include "core/calibration/variance_components.hpp"
-#include "core/fitting/fit.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
@@ -133,8 +133,7 @@ void describe(const ResidualTable& table, NoiseEstimate& estimate) {
     estimate.long_walls += wall.halves ? 1 : 0;
     const double squares = chi_square(table, wall, model);
     reduced.push_back(squares / median_chi_square(wall.points - 2.0));
-    LineEstimate unused;
-    if (scale_to_residuals(unused, squares, static_cast<std::size_t>(wall.points)) > 1.0) ++refuted;
+    if (residual_scale(squares, wall.points - 2.0) > 1.0) ++refuted;
     for (const ResidualBlock& block : table.blocks(wall)) {
       ranges.push_back(block.range);
       incidences.push_back(incidence(block));

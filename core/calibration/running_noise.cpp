@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/calibration/variance_components.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "core/fitting/fit.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
@@ -129,8 +129,6 @@ double added_stddev(double largest, const Excess& excess) {
 }
 
 constexpr double largest_added = 1.0;  // [m]
-// Chi square with two degrees of freedom is below it 95 times in 100.
-constexpr double chi_square_of_two_95 = 5.9915;
 // A squared distance with one degree of freedom counts up to where it should be exceeded once in
 // 100 times, and its mean is then this.
 constexpr double most_of_one = 6.6349;
@@ -142,19 +140,17 @@ double flatness(const ResidualTable& table, std::span<const WallResiduals> walls
                 const SensorModel& model) {
   std::vector<double> scales;
   for (const WallResiduals& wall : walls) {
-    LineEstimate unused;
-    scales.push_back(scale_to_residuals(unused, chi_square(table, wall, model),
-                                        static_cast<std::size_t>(wall.points)));
+    scales.push_back(residual_scale(chi_square(table, wall, model), wall.points - 2.0));
   }
   return added_stddev(largest_added, [&](double stddev) {
     double excess = 0.0;
     for (std::size_t k = 0; k < walls.size(); ++k) {
       if (!walls[k].halves) continue;
-      const LineDifference& halves = *walls[k].halves;
+      const HalvesDifference& halves = *walls[k].halves;
       const Eigen::Matrix2d covariance =
           scales[k] * halves.noise + stddev * stddev * halves.unevenness;
       const double squared = halves.difference.dot(covariance.inverse() * halves.difference);
-      excess += squared > chi_square_of_two_95 ? 0.95 : -0.05;
+      excess += squared > chi_square_2_95 ? 0.95 : -0.05;
     }
     return excess;
   });
@@ -182,11 +178,6 @@ double correlation(std::span<const WallResiduals> walls) {
 }
 
 }  // namespace
-
-double median_chi_square(double freedom) {
-  const double root = 1.0 - 2.0 / (9.0 * freedom);
-  return freedom * root * root * root;
-}
 
 double variance_of(const ResidualBlock& block, const SensorModel& model) {
   return variance_of(block, variances_of(model), model.flatness_stddev * model.flatness_stddev);

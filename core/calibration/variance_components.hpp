@@ -23,7 +23,4 @@ namespace quoin {
 [[nodiscard]] double chi_square(const ResidualTable& table, const WallResiduals& wall,
                                 const SensorModel& model);
 
-/// Median of chi square with so many degrees of freedom (Wilson and Hilferty 1931).
-[[nodiscard]] double median_chi_square(double freedom);
-
 }  // namespace quoin

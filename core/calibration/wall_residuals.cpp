@@ -43,8 +43,8 @@ std::optional<Part> part_of(const PointsView& points, const SensorModel& sensor,
               unevenness.about(along).covariance};
 }
 
-std::optional<LineDifference> compare(const PointsView& first, const PointsView& second,
-                                      const SensorModel& sensor, const Eigen::Vector2d& middle) {
+std::optional<HalvesDifference> compare(const PointsView& first, const PointsView& second,
+                                        const SensorModel& sensor, const Eigen::Vector2d& middle) {
   const auto a = part_of(first, sensor, middle);
   const auto b = part_of(second, sensor, middle);
   if (!a || !b) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<LineDifference> compare(const PointsView& first, const PointsView&
   if (!(std::abs(turn) < 0.5 * pi)) return std::nullopt;
   const double offset = normal_line_of(a->line).distance(middle.x(), middle.y()) -
                         normal_line_of(b->line).distance(middle.x(), middle.y());
-  return LineDifference{{turn, offset}, a->noise + b->noise, a->unevenness + b->unevenness};
+  return HalvesDifference{{turn, offset}, a->noise + b->noise, a->unevenness + b->unevenness};
 }
 
 /// The difference of odd and even rays, counted by the gaps between their bearings: rays without a

@@ -35,7 +35,7 @@ struct ResidualBlock {
 };
 
 /// Two lines of disjoint points of one wall.
-struct LineDifference {
+struct HalvesDifference {
   Eigen::Vector2d difference;  ///< of (direction, offset) about the wall's middle [rad, m]
   Eigen::Matrix2d noise;       ///< its covariance by the noise of the rays
   Eigen::Matrix2d unevenness;  ///< what flatness_stddev^2 adds to it, for 1 m^2
@@ -48,7 +48,7 @@ struct WallResiduals {
   double neighbours = 0.0;         ///< mean product of neighbouring residuals over the mean square
   double alternation = 0.0;        ///< [m] mean distance of odd rays less that of even ones
   double alternation_noise = 0.0;  ///< [m^2] its variance by white noise of the size seen
-  std::optional<LineDifference> halves;  ///< of long walls
+  std::optional<HalvesDifference> halves;  ///< of long walls
 };
 
 /// Walls of fewer points are too short to compare their halves.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 
@@ -29,16 +30,9 @@ Arc seen_arc(const Circle& circle, const PointsView& points) {
 }
 
 double scale_to_residuals(CircleFit& fit, std::size_t points) {
-  if (points < 4) return 1.0;
-  const double freedom = static_cast<double>(points - 3);
-  // Wilson and Hilferty 1931: the cube root of chi square over its degrees of freedom is normal.
-  constexpr double deviations = 3.090232306167813;  // exceeded once in 1000 times
-  const double spread = 2.0 / (9.0 * freedom);
-  const double root = 1.0 - spread + deviations * std::sqrt(spread);
-  const double reduced = fit.chi_square / freedom;
-  if (!(reduced > root * root * root)) return 1.0;
-  fit.estimate.covariance *= reduced;
-  return reduced;
+  const double factor = residual_scale(fit.chi_square, static_cast<double>(points) - 3.0);
+  fit.estimate.covariance *= factor;
+  return factor;
 }
 
 }  // namespace quoin

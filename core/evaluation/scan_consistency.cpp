@@ -219,9 +219,8 @@ ScanConsistencyFigures ScanConsistency::figures() const {
     }
     const double value = all_squares / all_freedoms;
     const Interval around = spread.mean();
-    const double half = spread.count > 1
-                            ? 0.5 * (around.high - around.low)
-                            : 1.959963984540054 * value * std::sqrt(2.0 / all_freedoms);
+    const double half = spread.count > 1 ? 0.5 * (around.high - around.low)
+                                         : normal_97_5 * value * std::sqrt(2.0 / all_freedoms);
     figures.reduced_chi_square = {value, value - half, value + half};
   }
   for (std::size_t k = 0; k < split_test_count; ++k) {

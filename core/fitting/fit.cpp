@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/sensor/multiversion.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
@@ -69,16 +70,9 @@ double chi_square(const Line& line, const PointsView& points, const SensorModel&
 }
 
 double scale_to_residuals(LineEstimate& estimate, double chi_square, std::size_t points) {
-  if (points < 3) return 1.0;
-  const double freedom = static_cast<double>(points - 2);
-  // Wilson and Hilferty 1931: the cube root of chi square over its degrees of freedom is normal.
-  constexpr double deviations = 3.090232306167813;  // exceeded once in 1000 times
-  const double spread = 2.0 / (9.0 * freedom);
-  const double root = 1.0 - spread + deviations * std::sqrt(spread);
-  const double reduced = chi_square / freedom;
-  if (!(reduced > root * root * root)) return 1.0;
-  estimate.covariance *= reduced;
-  return reduced;
+  const double factor = residual_scale(chi_square, static_cast<double>(points) - 2.0);
+  estimate.covariance *= factor;
+  return factor;
 }
 
 Eigen::Matrix2d flatness_covariance(double flatness_stddev, double length) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/line.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 
@@ -53,9 +54,6 @@ struct Ellipse {
   double semi_minor = 0.0;  ///< [m]
   double direction = 0.0;   ///< [rad] of the major axis, (-pi/2, pi/2]
 };
-
-/// Quantile of the chi-square distribution with two degrees of freedom at 95 %, -2 ln(0.05).
-inline constexpr double chi_square_2_95 = 5.991464547107979;
 
 /// Contour at which the squared Mahalanobis distance is `mahalanobis_squared` (1: one sigma).
 [[nodiscard]] Ellipse ellipse(const Eigen::Matrix2d& covariance, double mahalanobis_squared);

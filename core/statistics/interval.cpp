@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics/chi_square.hpp"
+
 namespace quoin {
-namespace {
-
-constexpr double normal_97_5 = 1.959963984540054;  // quantile of the standard normal distribution
-
-}  // namespace
 
 Interval proportion(std::size_t hits, std::size_t trials, double effective) {
   if (trials == 0 || !(effective > 0.0)) return {};

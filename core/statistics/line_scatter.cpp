@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/statistics/chi_square.hpp"
+
 namespace quoin {
 namespace {
 
-constexpr double normal_97_5 = 1.959963984540054;
-constexpr double largest_inside95 = 5.991464547107979;
 constexpr std::size_t fewest_lines = 100;
 // What noise is known to at best; less is not worth a word.
 constexpr double worth_a_word = 1.1;
@@ -22,12 +22,6 @@ constexpr const char* format =
     "%.3f [%.3f, %.3f] of %zu lines; odd and even points agree in %.1f %% [%.1f, %.1f] of %zu";
 constexpr const char* scanned =
     "%lf [%lf, %lf] of %zu lines; odd and even points agree in %lf %% [%lf, %lf] of %zu%n";
-
-/// Median of chi-square over its degrees of freedom (Wilson and Hilferty 1931).
-double median_by_chance(double freedom) {
-  const double root = 1.0 - 2.0 / (9.0 * freedom);
-  return root * root * root;
-}
 
 }  // namespace
 
@@ -40,7 +34,7 @@ void RunningScatter::trim(std::deque<Value>& values, double time) {
 void RunningScatter::add(double time, double chi_square, std::size_t points) {
   if (points < 3 || !std::isfinite(chi_square)) return;
   const auto freedom = static_cast<double>(points - 2);
-  reduced_.push_back({time, chi_square / freedom / median_by_chance(freedom)});
+  reduced_.push_back({time, chi_square / median_chi_square(freedom)});
   trim(reduced_, time);
 }
 
@@ -76,7 +70,7 @@ LineScatter RunningScatter::scatter(double time) {
   scatter.split_lines = splits_.size();
   scatter.split_inside95 =
       proportion(static_cast<std::size_t>(std::ranges::count_if(
-                     splits_, [](const Value& value) { return value.value <= largest_inside95; })),
+                     splits_, [](const Value& value) { return value.value <= chi_square_2_95; })),
                  splits_.size());
   return scatter;
 }
