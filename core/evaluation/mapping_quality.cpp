@@ -100,7 +100,7 @@ std::optional<Pose2> pose_at(std::span<const StampedPose> trajectory, double sta
   const StampedPose& before = *(after - 1);
   if (after->stamp - before.stamp > gap) return std::nullopt;
   const double fraction = (stamp - before.stamp) / (after->stamp - before.stamp);
-  return compose(before.pose, after_twist(twist_of(between(before.pose, after->pose)), fraction));
+  return quoin::interpolate(before.pose, after->pose, fraction);
 }
 
 }  // namespace

@@ -56,6 +56,13 @@ Eigen::Matrix<double, 2, 5> jacobian_of(const LineResidual& residual) {
   return jacobian;
 }
 
+/// Covariance of the residual of a wall at this place of the joint covariance.
+Eigen::Matrix2d innovation_of(const LineResidual& residual, const Eigen::MatrixXd& covariance,
+                              std::size_t place, const Eigen::Matrix2d& noise) {
+  const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
+  return jacobian * block_of(covariance, place) * jacobian.transpose() + noise;
+}
+
 /// How much of a segment has to lie on a wall to be of it [m]: walls that end are different walls
 /// from others farther on in the same line.
 bool lies_on(const Pose2& pose, const LineLandmark& landmark, const LineMeasurement& m,
@@ -131,9 +138,7 @@ Landmarks::Pairs Landmarks::associate(Belief belief, double widest_direction,
         if (std::cos(belief.pose.theta + m.alpha - landmark.phi) < 0.8) continue;
         if (!lies_on(belief.pose, landmark, m, position_stddev)) continue;
         const LineResidual residual = line_residual(belief.pose, landmark, m);
-        const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
-        const Eigen::Matrix2d s =
-            jacobian * block_of(belief.covariance, k) * jacobian.transpose() + m.covariance;
+        const Eigen::Matrix2d s = innovation_of(residual, belief.covariance, k, m.covariance);
         if (s(0, 0) > widest_direction * widest_direction ||
             s(1, 1) > widest_offset * widest_offset) {
           continue;
@@ -161,9 +166,7 @@ Landmarks::Pairs Landmarks::associate(Belief belief, double widest_direction,
       const Eigen::MatrixXd gain_base =
           belief.covariance.leftCols<3>() * residual.by_pose.transpose() +
           belief.covariance.middleCols<2>(at) * residual.by_landmark.transpose();
-      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
-      const Eigen::Matrix2d s =
-          jacobian * block_of(belief.covariance, place) * jacobian.transpose() + m.covariance;
+      const Eigen::Matrix2d s = innovation_of(residual, belief.covariance, place, m.covariance);
       const Eigen::MatrixXd gain = gain_base * s.inverse();
       const Eigen::VectorXd change = -gain * residual.value;
       belief.pose = moved(belief.pose, change.head<3>());
@@ -265,10 +268,8 @@ bool Landmarks::update(const Belief& prior, Pairs& pairs, Belief& posterior) con
       const LineMeasurement& m = measurements_[pair.first];
       const LineLandmark landmark = wall(posterior, pair.second);
       const LineResidual residual = line_residual(posterior.pose, landmark, m);
-      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
       const Eigen::Matrix2d s =
-          jacobian * block_of(posterior.covariance, pair.second) * jacobian.transpose() +
-          m.covariance;
+          innovation_of(residual, posterior.covariance, pair.second, m.covariance);
       return residual.value.dot(s.inverse() * residual.value) > gate ||
              !lies_on(posterior.pose, landmark, m, 0.0);
     });
@@ -346,13 +347,12 @@ Landmarks::Pairs Landmarks::find_pairs(const Belief& prior, double& weakening) c
 }
 
 void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization& result) {
-  double matched = 0.0, total = 0.0;
-  for (const LineMeasurement& m : measurements_) total += 2.0 * m.half_length;
+  const double matched = length_of(pairs);
+  const double total = length_of_scan();
   // What the walls alone say of the position.
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const auto& [i, k] : pairs) {
     const LineMeasurement& m = measurements_[i];
-    matched += 2.0 * m.half_length;
     const Eigen::Vector2d normal = wall(posterior, k).normal();
     information += normal * normal.transpose() / m.covariance(1, 1);
   }
@@ -404,9 +404,7 @@ void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
       if (std::cos(belief_.pose.theta + m.alpha - landmark.phi) < 0.8) continue;
       if (overlap(belief_.pose, landmark, m) <= 0.0) continue;
       const LineResidual residual = line_residual(belief_.pose, landmark, m);
-      const Eigen::Matrix<double, 2, 5> jacobian = jacobian_of(residual);
-      const Eigen::Matrix2d s =
-          jacobian * block_of(belief_.covariance, k) * jacobian.transpose() + m.covariance;
+      const Eigen::Matrix2d s = innovation_of(residual, belief_.covariance, k, m.covariance);
       near = s(1, 1) < widest_offset * widest_offset &&
              residual.value.dot(s.inverse() * residual.value) < near_gate;
     }
@@ -595,17 +593,13 @@ bool Landmarks::close_loop() {
 /// Where the scan fits all of the map, if only one pose does. Two scans in a row have to agree.
 bool Landmarks::relocalize(Localization& result) {
   std::vector<SidedSegment> first, second;
-  double total = 0.0;
-  for (const LineMeasurement& m : measurements_) {
-    first.push_back(sided(m));
-    total += 2.0 * m.half_length;
-  }
+  for (const LineMeasurement& m : measurements_) first.push_back(sided(m));
   for (const LineLandmark& landmark : graph_.landmarks()) {
     if (landmark.alive && landmark.observations >= 3) second.push_back(sided(landmark));
   }
   const std::vector<Alignment> found = align(first, second, AlignmentSearch{});
   const bool unique = !found.empty() && found.front().pairs.size() >= 4 &&
-                      found.front().support > 0.6 * total &&
+                      found.front().support > 0.6 * length_of_scan() &&
                       (found.size() < 2 || found[1].support < 0.75 * found[0].support);
   if (!unique) {
     candidate_.reset();
@@ -676,11 +670,13 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     const Belief prior = predict(since_.covariance);
     update(prior, pairs, posterior);
     judge(posterior, pairs, result);
-    well_matched_ = length_of(pairs) >= 0.5 * length_of_scan() && !pairs.empty();
+    const double matched = length_of(pairs);
+    const double total = length_of_scan();
+    well_matched_ = matched >= 0.5 * total && !pairs.empty();
     if (fits_) {
       lost_since_ = input.stamp;
       unfit_scans_ = 0;
-      const bool found = pairs.size() >= 3 && length_of(pairs) > 0.5 * length_of_scan();
+      const bool found = pairs.size() >= 3 && matched > 0.5 * total;
       found_scans_ = lost_ && found ? found_scans_ + 1 : 0;
       if (found_scans_ >= lost_scans) lost_ = false;
     } else if (++unfit_scans_ >= lost_scans && input.stamp - lost_since_ > lost_after) {
@@ -692,7 +688,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     last_pose_ = posterior.pose;
     const Pose2 way = between(belief_.pose, posterior.pose);
     const double driven = std::hypot(way.x, way.y);
-    const bool shows_new = length_of(pairs) < 0.7 * length_of_scan();
+    const bool shows_new = matched < 0.7 * total;
     if (fits_ && !lost_ &&
         (driven > parameters_.keyframe_distance ||
          std::abs(way.theta) > parameters_.keyframe_angle ||

@@ -106,6 +106,10 @@ Eigen::Vector3d twist_of(const Pose2& increment) {
           (mean.a * increment.y - mean.b * increment.x) / determinant, increment.theta};
 }
 
+Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction) {
+  return compose(from, after_twist(twist_of(between(from, to)), fraction));
+}
+
 Eigen::Matrix3d OdometryNoise::covariance(const Pose2& increment) const {
   const Eigen::Vector3d twist = twist_of(increment);
   const double driven = std::hypot(twist.x(), twist.y());
@@ -150,7 +154,7 @@ std::optional<Pose2> OdometryTrack::at(double stamp) const {
   if (after == poses_.begin()) return std::nullopt;
   const Stamped& before = *(after - 1);
   const double fraction = (stamp - before.stamp) / (after->stamp - before.stamp);
-  return compose(before.pose, after_twist(twist_of(between(before.pose, after->pose)), fraction));
+  return interpolate(before.pose, after->pose, fraction);
 }
 
 std::optional<PoseEstimate> OdometryTrack::increment(double from, double to,

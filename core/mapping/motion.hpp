@@ -39,6 +39,9 @@ struct PoseEstimate {
 /// The constant twist that leads to `increment` in one second; the inverse of `after_twist`.
 [[nodiscard]] Eigen::Vector3d twist_of(const Pose2& increment);
 
+/// On the way from one pose to the other at a constant twist; `fraction` is 0 at the first.
+[[nodiscard]] Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);
+
 /// Standard deviations of wheel odometry, as parts of what was driven. The errors of different
 /// increments are taken as independent.
 struct OdometryNoise {
