@@ -14,8 +14,27 @@ namespace quoin {
                                       CircleConstraint constraint,
                                       const CircleParameters& parameters);
 
-class TaubinCircle {
+/// What the three have in common.
+template <CircleConstraint constraint>
+class AlgebraicCircle {
  public:
+  using Parameters = CircleParameters;
+
+  AlgebraicCircle() = default;
+  explicit AlgebraicCircle(const Parameters& parameters) : parameters_(parameters) {}
+
+  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
+    return fit_algebraic(points, sensor, constraint, parameters_);
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+class TaubinCircle : public AlgebraicCircle<CircleConstraint::taubin> {
+ public:
+  using AlgebraicCircle::AlgebraicCircle;
+
   static constexpr const char* name = "taubin";
   static constexpr const char* description =
       "algebraic circle, squares over the mean squared gradient, less its bias; no iteration";
@@ -23,44 +42,24 @@ class TaubinCircle {
   static constexpr const char* choose =
       "Where a noise model is not to be relied on for weights. All points count alike, so that it "
       "is less accurate than maximum_likelihood where the incidence varies, as on a whole column.";
-
-  using Parameters = CircleParameters;
-
-  TaubinCircle() = default;
-  explicit TaubinCircle(const Parameters& parameters) : parameters_(parameters) {}
-
-  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
-    return fit_algebraic(points, sensor, CircleConstraint::taubin, parameters_);
-  }
-
- private:
-  Parameters parameters_;
 };
 
-class PrattCircle {
+class PrattCircle : public AlgebraicCircle<CircleConstraint::pratt> {
  public:
+  using AlgebraicCircle::AlgebraicCircle;
+
   static constexpr const char* name = "pratt";
   static constexpr const char* description =
       "algebraic circle, squares over the squared radius, less its bias";
   static constexpr const char* source = "Pratt 1987";
   static constexpr const char* choose =
       "To compare with taubin: the same to first order, with twice the bias to take off.";
-
-  using Parameters = CircleParameters;
-
-  PrattCircle() = default;
-  explicit PrattCircle(const Parameters& parameters) : parameters_(parameters) {}
-
-  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
-    return fit_algebraic(points, sensor, CircleConstraint::pratt, parameters_);
-  }
-
- private:
-  Parameters parameters_;
 };
 
-class HyperCircle {
+class HyperCircle : public AlgebraicCircle<CircleConstraint::hyper> {
  public:
+  using AlgebraicCircle::AlgebraicCircle;
+
   static constexpr const char* name = "hyper";
   static constexpr const char* description =
       "algebraic circle that noise alike in all directions does not bias";
@@ -68,18 +67,6 @@ class HyperCircle {
   static constexpr const char* choose =
       "Where taubin would do and the noise of range and bearing are about as large: then there is "
       "no bias to take off.";
-
-  using Parameters = CircleParameters;
-
-  HyperCircle() = default;
-  explicit HyperCircle(const Parameters& parameters) : parameters_(parameters) {}
-
-  CircleFit operator()(const PointsView& points, const SensorModel& sensor) const {
-    return fit_algebraic(points, sensor, CircleConstraint::hyper, parameters_);
-  }
-
- private:
-  Parameters parameters_;
 };
 
 }  // namespace quoin
