@@ -10,6 +10,7 @@
 
 #include "core/geometry/angle.hpp"
 #include "core/geometry/corner.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/geometry/corner.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {

@@ -8,6 +8,7 @@
 #include "core/evaluation/corner_matching.hpp"
 #include "core/evaluation/scene.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
@@ -20,6 +21,14 @@ bool enough(const VisibleWall& wall, std::size_t far_ray, const Eigen::Vector2d&
   const double bearing = wall.bearings[far_ray];
   const Eigen::Vector2d far(range * std::cos(bearing), range * std::sin(bearing));
   return wall.bearings.size() >= seen.min_points && (far - corner).norm() >= seen.min_length;
+}
+
+/// A scan of the world from the first pose of its path.
+void extract(Extraction& extraction, const World& world, const DisturbedScans& disturbed,
+             std::size_t scan) {
+  DisturbedScanner scanner(world, disturbed, disturbed.seed + scan);
+  static_cast<void>(scanner.scan());
+  extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
 }
 
 }  // namespace
@@ -107,9 +116,7 @@ CornerQuality judge_room_corners(Extraction& extraction, const DisturbedScans& d
       truth.positions.push_back(pose.inverse_transform(corner));
     }
     truth.to_be_found.assign(truth.positions.size(), true);
-    DisturbedScanner scanner(world, disturbed, disturbed.seed + k);
-    static_cast<void>(scanner.scan());
-    extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
+    extract(extraction, world, disturbed, k);
     tally.add(extraction.corners(), truth);
   }
   return tally.quality();
@@ -123,9 +130,7 @@ CornerQuality judge_column(Extraction& extraction, double radius, double distanc
   world.pillars = {{{distance + radius, 0.0}, radius}};
   for (std::size_t k = 0; k < disturbed.scans; ++k) {
     world.path = {{0.0, 0.0, random.uniform(-pi, pi)}};
-    DisturbedScanner scanner(world, disturbed, disturbed.seed + k);
-    static_cast<void>(scanner.scan());
-    extraction.run(scanner.view(), disturbed.noise, disturbed.noise);
+    extract(extraction, world, disturbed, k);
     tally.add(extraction.corners(), {});
   }
   return tally.quality();

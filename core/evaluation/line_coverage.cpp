@@ -7,23 +7,14 @@
 #include <Eigen/LU>
 
 #include "core/evaluation/scene.hpp"
+#include "core/fitting/line_difference.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/corner.hpp"
 #include "core/simulation/random.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
-
-/// Of the line from the truth: of its direction, and of its offset at the mid-point.
-Eigen::Vector2d error_in_the_middle(const LineSegment& line, const Line& truth) {
-  const Eigen::Vector2d normal = truth.normal();
-  Eigen::Vector2d error(normalized_angle(line.estimate.line.alpha - truth.alpha),
-                        normal.dot(0.5 * (line.start + line.end)) - truth.r);
-  if (std::abs(error.x()) > 0.5 * pi) {  // seen from the other side
-    error = {normalized_angle(error.x() - pi), -error.y()};
-  }
-  return error;
-}
 
 bool is_inside(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance) {
   return error.dot(covariance.inverse() * error) <= chi_square_2_95;
@@ -67,7 +58,7 @@ LineCoverage judge_wall(const Fitter& fitter, const SingleWall& wall, const Sens
     if (!fit.ok()) continue;
     ++result.trials;
     const LineSegment line = line_segment(fit.estimate, fit.normal, points);
-    inside += is_inside(error_in_the_middle(line, truth), line.estimate.covariance) ? 1 : 0;
+    inside += squared_error(line, truth) <= chi_square_2_95 ? 1 : 0;
     if (!line.estimate.is_gaussian_in_alpha_r()) continue;
     ++gaussian;
     const Eigen::Vector2d error(normalized_angle(line.estimate.line.alpha - truth.alpha),

@@ -11,6 +11,7 @@
 #include "core/evaluation/scene.hpp"
 #include "core/fitting/line_difference.hpp"
 #include "core/geometry/angle.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
@@ -68,13 +69,6 @@ class TrueLines {
   std::vector<std::size_t> counts_;
 };
 
-/// Squared Mahalanobis distance from the true line, at the middle of what is seen of it.
-double error_squared(const LineSegment& found, const Line& truth) {
-  const LineEstimate exact{truth, Eigen::Matrix2d::Zero()};
-  return LineDifference(found.estimate, exact, 0.5 * (found.start + found.end))
-      .mahalanobis_squared();
-}
-
 class LineTally {
  public:
   void add(const Extraction& extraction, const WallLines& walls, TrueLines& truth) {
@@ -89,7 +83,7 @@ class LineTally {
           truth.of(extraction.points().view().subview(segment.begin, segment.end));
       if (of == Hit::no_wall) continue;
       ++true_lines;
-      const double squared = error_squared(line, walls.lines[of]);
+      const double squared = squared_error(line, walls.lines[of]);
       covered += squared <= chi_square_2_95 ? 1 : 0;
       beyond_ += squared <= four_sigma_squared ? 0 : 1;
     }

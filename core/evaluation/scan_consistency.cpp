@@ -12,6 +12,7 @@
 #include "core/fitting/line_difference.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/geometry/corner.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "core/statistics/order_statistics.hpp"
 
 namespace quoin {

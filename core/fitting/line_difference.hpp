@@ -69,6 +69,13 @@ struct LineDifference {
   Eigen::Matrix2d covariance;  ///< [rad^2, rad m; rad m, m^2]
 };
 
+/// Squared Mahalanobis distance of a line from the true one, at the middle of what is seen of it.
+[[nodiscard]] inline double squared_error(const LineSegment& found, const Line& truth) {
+  const LineEstimate exact{truth, Eigen::Matrix2d::Zero()};
+  return LineDifference(found.estimate, exact, 0.5 * (found.start + found.end))
+      .mahalanobis_squared();
+}
+
 /// Copies every other point, from index `first` (0 or 1) on; `points` are more than that.
 inline void take_every_other(const PointsView& points, std::size_t first, Points& taken) {
   const std::size_t count = (points.size() - first + 1) / 2;

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "core/geometry/line.hpp"
-#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/pictures.hpp"
 
+#include "core/statistics/chi_square.hpp"
+
 namespace quoin::deploy {
 
 DrawnPoint drawn(const Eigen::Vector2d& point) { return {point.x(), point.y()}; }

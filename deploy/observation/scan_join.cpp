@@ -9,6 +9,7 @@
 
 #include "core/geometry/corner.hpp"
 #include "core/parameters/parameter.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/topics/header.hpp"

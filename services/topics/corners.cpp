@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/topics/corners.hpp"
 
+#include "core/statistics/chi_square.hpp"
+
 namespace quoin::topics {
 
 void fill_corners(const FoundCorners& found, const std::string& covariance_mode,

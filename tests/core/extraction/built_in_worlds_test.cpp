@@ -13,6 +13,7 @@
 #include "core/fitting/fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 #include "core/simulation/scanner.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "core/geometry/corner.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

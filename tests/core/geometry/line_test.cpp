@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "core/geometry/corner.hpp"
+#include "core/statistics/chi_square.hpp"
 #include "tests/core/matchers.hpp"
 
 namespace quoin {

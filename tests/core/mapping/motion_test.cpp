@@ -16,6 +16,7 @@
 #include "core/segmentation/segmenters.hpp"
 #include "core/simulation/random.hpp"
 #include "core/simulation/scanner.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
