@@ -5,28 +5,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/sensor/points.hpp"
+#include "core/calibration/variance_components.hpp"
 #include "core/statistics/interval.hpp"
 
 namespace quoin {
-
-/// What makes the points of a wall leave its line, as scans show it.
-struct NoiseComponents {
-  double range_stddev = 0.0;            ///< [m] of each range, quantization included
-  double range_stddev_per_metre = 0.0;  ///< without unit: what grows with the range
-  double bearing_stddev = 0.0;          ///< [rad] what grows with range and incidence
-  double flatness_stddev = 0.0;         ///< [m] shared by neighbouring rays, see SensorModel
-  /// [m] between odd and even rays of one wall: sensors that sweep twice with half of the rays each
-  /// show how they moved in between.
-  double interlace_stddev = 0.0;
-  /// Of the residuals of neighbouring rays; 0 for white noise.
-  double neighbour_correlation = 0.0;
-
-  /// As a sensor model; the bias of ranges does not show in the lines of walls and stays 0.
-  [[nodiscard]] SensorModel model() const {
-    return {range_stddev, bearing_stddev, 0.0, range_stddev_per_metre, flatness_stddev};
-  }
-};
 
 /// Standard deviation of ranges about the lines of walls, in a band of ranges or incidences.
 struct NoiseBand {

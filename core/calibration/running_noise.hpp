@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "core/calibration/noise_estimate.hpp"
+#include "core/calibration/variance_components.hpp"
 #include "core/calibration/wall_sample.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/points.hpp"

@@ -7,8 +7,8 @@
 
 #include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/scene.hpp"
-#include "core/fitting/arras_siegwart.hpp"
-#include "core/fitting/cwlf.hpp"
+#include "core/fitting/axis_regression.hpp"
+#include "core/fitting/orthogonal_fitters.hpp"
 
 namespace quoin {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/evaluation/fit_timing.hpp"
-#include "core/fitting/least_squares.hpp"
-#include "core/fitting/pca.hpp"
+#include "core/fitting/axis_regression.hpp"
+#include "core/fitting/orthogonal_fitters.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/simulation/random.hpp"
 

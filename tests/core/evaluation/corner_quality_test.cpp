@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/corners/corner_finders.hpp"
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/likelihood_fitters.hpp"
 #include "core/segmentation/segmenters.hpp"
 
 namespace quoin {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/fitting/wctls.hpp"
+#include "core/fitting/algebraic_fitters.hpp"
 
 namespace quoin {
 namespace {

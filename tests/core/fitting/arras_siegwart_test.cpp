@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/arras_siegwart.hpp"
-
 #include <random>
 
 #include "core/evaluation/papers/cwlf_paper.hpp"
+#include "core/fitting/orthogonal_fitters.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

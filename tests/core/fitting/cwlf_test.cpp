@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/cwlf.hpp"
-
 #include <random>
 #include <utility>
 #include <vector>
 
 #include <Eigen/LU>
 
+#include "core/fitting/axis_regression.hpp"
 #include "core/geometry/corner.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/fitting/published_cwlf.hpp"

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/least_squares.hpp"
-
 #include <cmath>
 #include <random>
 
 #include <Eigen/Dense>
 
+#include "core/fitting/axis_regression.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

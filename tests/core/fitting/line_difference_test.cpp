@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/likelihood_fitters.hpp"
 #include "core/simulation/random.hpp"
 
 namespace quoin {

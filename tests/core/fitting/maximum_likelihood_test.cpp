@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/maximum_likelihood.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <Eigen/LU>
 
+#include "core/fitting/likelihood_fitters.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/fitting/near_wall.hpp"
 #include "tests/core/matchers.hpp"

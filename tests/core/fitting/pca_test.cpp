@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/pca.hpp"
-
 #include <cmath>
 #include <random>
 
 #include <Eigen/Eigenvalues>
 
+#include "core/fitting/orthogonal_fitters.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

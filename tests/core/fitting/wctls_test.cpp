@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/fitting/wctls.hpp"
-
 #include <cmath>
 #include <string>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "core/fitting/algebraic_fitters.hpp"
 #include "core/geometry/corner.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/fitting/published_equations.hpp"

@@ -12,7 +12,7 @@
 
 #include "core/corners/corner_finders.hpp"
 #include "core/extraction/extraction.hpp"
-#include "core/fitting/inverse_range.hpp"
+#include "core/fitting/likelihood_fitters.hpp"
 #include "core/simulation/random.hpp"
 #include "tests/core/segmentation/segmenter_scans.hpp"
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/evaluation/scene.hpp"
-#include "core/fitting/arras_siegwart.hpp"
-#include "core/fitting/cwlf.hpp"
+#include "core/fitting/axis_regression.hpp"
+#include "core/fitting/orthogonal_fitters.hpp"
 #include "tests/core/matchers.hpp"
 
 namespace quoin {
