@@ -52,8 +52,6 @@ RunningNoise::Event RunningNoise::add(const PointsView& points, std::span<const 
   const SensorModel start = components_ ? components_->model() : SensorModel{};
   const ResidualTable block = residuals_of(window_, begin, scan_, start);
   if (block.walls().size() < fewest_walls) return Event::none;
-  last_begin_ = begin;
-  last_end_ = scan_;
   block_begin_ = scan_;
   block_points_ = 0;
 
@@ -78,13 +76,6 @@ RunningNoise::Event RunningNoise::add(const PointsView& points, std::span<const 
     model = components_->model();
   }
   return event;
-}
-
-std::optional<double> RunningNoise::noise_over(const SensorModel& declared) const {
-  if (!components_) return std::nullopt;
-  const ResidualTable table = residuals_of(window_, last_begin_, last_end_, declared);
-  if (table.walls().empty()) return std::nullopt;
-  return noise_factor(table, declared);
 }
 
 }  // namespace quoin

@@ -38,17 +38,12 @@ class RunningNoise {
   /// Nothing before the first complete block.
   [[nodiscard]] const std::optional<NoiseComponents>& components() const { return components_; }
 
-  /// By how much the noise of the last complete block is larger than the sensor's model says: root
-  /// of the median reduced chi square of its walls. Nothing before the first complete block.
-  [[nodiscard]] std::optional<double> noise_over(const SensorModel& declared) const;
-
  private:
   Settings settings_;
   WallSample window_;
   std::size_t scan_ = 0;
   std::size_t block_begin_ = 0;  // first scan of the block that is being filled
   std::size_t block_points_ = 0;
-  std::size_t last_begin_ = 0, last_end_ = 0;  // scans of the last complete block
   std::optional<NoiseComponents> components_;
 };
 

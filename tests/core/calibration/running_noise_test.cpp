@@ -47,7 +47,6 @@ using Event = RunningNoise::Event;
 TEST_F(RunningNoiseTest, IsKnownAfterTheFirstBlock) {
   EXPECT_TRUE(run(49, 0.02).empty());
   EXPECT_FALSE(noise_.components());
-  EXPECT_FALSE(noise_.noise_over({}));
   EXPECT_EQ(run(1, 0.02), std::vector{Event::renewed});
   ASSERT_TRUE(noise_.components());
   EXPECT_NEAR(noise_.components()->range_stddev, 0.02, 0.001);
@@ -65,16 +64,6 @@ TEST_F(RunningNoiseTest, FollowsAJumpAtOnce) {
   EXPECT_EQ(run(50, 0.03), std::vector{Event::renewed});
   EXPECT_EQ(run(50, 0.01), std::vector{Event::jump});
   EXPECT_NEAR(noise_.components()->range_stddev, 0.01, 0.0005);
-}
-
-TEST_F(RunningNoiseTest, ComparesWithWhatIsDeclared) {
-  run(50, 0.02);
-  SensorModel declared;
-  declared.bearing_stddev = 1e-5;
-  declared.range_stddev = 0.005;
-  EXPECT_NEAR(*noise_.noise_over(declared), 4.0, 0.2);
-  declared.range_stddev = 0.08;
-  EXPECT_NEAR(*noise_.noise_over(declared), 0.25, 0.0125);
 }
 
 TEST_F(RunningNoiseTest, ForgetsWhatIsOutsideOfTheWindow) {
