@@ -117,7 +117,7 @@ double MappingQuality::coverage95() const {
   return nees.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(nees.size());
 }
 
-MappingQuality judge_localizer(const Localizer& localizer, Extraction& extraction,
+MappingQuality judge_localizer(const Localize& localizer, Extraction& extraction,
                                const World& world, const SimulatedDrive& drive) {
   ScannerSettings settings;
   settings.points = drive.rays;

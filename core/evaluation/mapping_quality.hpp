@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -47,8 +48,11 @@ struct MappingQuality {
   [[nodiscard]] double coverage95() const;  ///< share of nees below the 95 % of chi square of 3
 };
 
+/// A localizer, or what stands for one.
+using Localize = std::function<void(const LocalizationInput&, Localization&)>;
+
 /// Drives and judges. The first pose is the origin of the localizer's map.
-[[nodiscard]] MappingQuality judge_localizer(const Localizer& localizer, Extraction& extraction,
+[[nodiscard]] MappingQuality judge_localizer(const Localize& localizer, Extraction& extraction,
                                              const World& world, const SimulatedDrive& drive);
 
 /// A verified relative pose between two instants, as of Kuemmerle et al. 2009.

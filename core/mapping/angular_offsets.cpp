@@ -66,7 +66,7 @@ void AngularOffsets::operator()(const LocalizationInput& input, Localization& re
     predicted.covariance.col(2).head<2>().setZero();
     predicted.covariance(2, 2) = heading;
   }
-  for (std::size_t i = 0; i < input.lines.size(); ++i) {
+  for (std::size_t i = 0; i < input.lines.size() && !is_given_; ++i) {
     const Eigen::Vector2d start = predicted.pose.transform(input.lines[i].start);
     const Eigen::Vector2d end = predicted.pose.transform(input.lines[i].end);
     // Lines of one scan do not match each other: what was no match before is new.
@@ -83,12 +83,32 @@ void AngularOffsets::operator()(const LocalizationInput& input, Localization& re
   stamp_ = input.stamp;
 
   result.pose = pose_;
-  result.status = weights > 0.0 || map_.lines().size() == input.lines.size()
-                      ? LocalizationStatus::tracking
-                      : LocalizationStatus::ambiguous;
+  const bool is_first = !is_given_ && map_.lines().size() == input.lines.size();
+  result.status = !has_pose_                  ? LocalizationStatus::lost
+                  : weights > 0.0 || is_first ? LocalizationStatus::tracking
+                                              : LocalizationStatus::ambiguous;
   result.weak_direction.reset();
+  result.keyframe.reset();
   result.map.clear();
   if (input.wants_map) result.map.assign(map_.lines().begin(), map_.lines().end());
+}
+
+void AngularOffsets::use_map(std::span<const MapLine> map,
+                             const std::optional<PoseEstimate>& pose) {
+  reset();
+  for (const MapLine& line : map) map_.add(line);
+  is_given_ = true;
+  has_pose_ = pose.has_value();
+  if (pose) pose_ = *pose;
+}
+
+void AngularOffsets::reset() {
+  map_.clear();
+  pose_ = {};
+  velocity_.setZero();
+  stamp_.reset();
+  is_given_ = false;
+  has_pose_ = true;
 }
 
 }  // namespace quoin

@@ -46,12 +46,22 @@ class AngularOffsets {
 
   [[nodiscard]] const LineMap& map() const { return map_; }
 
+  void use_map(std::span<const MapLine> map, const std::optional<PoseEstimate>& pose);
+  void reset();
+  [[nodiscard]] static std::vector<Pose2> keyframes() { return {}; }
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.map_, self.pose_, self.velocity_, self.stamp_, self.is_given_, self.has_pose_);
+  }
+
  private:
   LineMap map_;
   PoseEstimate pose_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // [m/s, rad/s] in the frame of the sensor
   std::optional<double> stamp_;                         // [s] of the previous scan
-  std::vector<std::optional<LineMatch>> matches_;       // of the lines of the scan
+  bool is_given_ = false;                               // the map, which stays as it is
+  bool has_pose_ = true;
+  std::vector<std::optional<LineMatch>> matches_;  // of the lines of the scan
 };
 
 }  // namespace quoin

@@ -23,10 +23,20 @@ class LandmarkGraph {
   struct Observation {
     std::size_t landmark = 0;
     LineMeasurement measurement;
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+      archive(self.landmark, self.measurement);
+    }
   };
   struct Keyframe {
     Pose2 pose;
     std::vector<Observation> observations;
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+      archive(self.pose, self.observations);
+    }
   };
 
   /// Adds a keyframe; `motion`, from the keyframe before, is not looked at for the first.
@@ -49,6 +59,11 @@ class LandmarkGraph {
   [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
   [[nodiscard]] const std::vector<LineLandmark>& landmarks() const { return landmarks_; }
   [[nodiscard]] std::vector<LineLandmark>& landmarks() { return landmarks_; }
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.keyframes_, self.motions_, self.motion_information_, self.landmarks_);
+  }
 
  private:
   /// One step with these variables last in the order of elimination; returns the cost before it.

@@ -383,6 +383,15 @@ void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization&
 }
 
 void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
+  if (!given_.empty()) {
+    // Nothing is mapped: the filter goes on from here, and from time to time with other walls.
+    belief_ = posterior;
+    since_ = PoseEstimate{};
+    const double driven =
+        std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y);
+    if (driven > refresh_distance) refresh();
+    return;
+  }
   const std::size_t keyframe = graph_.add_keyframe(posterior.pose, since_);
   belief_ = posterior;
   std::vector<char> used(measurements_.size(), 0);
@@ -436,7 +445,7 @@ void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
 /// One step of the whole graph, and the filter anew from its joint covariance.
 void Landmarks::refresh() {
   const std::size_t keyframe = graph_.keyframes().size() - 1;
-  const Pose2 pose = graph_.keyframes().back().pose;
+  const Pose2 pose = given_.empty() ? graph_.keyframes().back().pose : belief_.pose;
   std::vector<std::pair<double, std::size_t>> around;
   for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
     const LineLandmark& landmark = graph_.landmarks()[i];
@@ -453,17 +462,28 @@ void Landmarks::refresh() {
   active_.clear();
   for (const auto& [distance, index] : around) active_.push_back(index);
   std::sort(active_.begin(), active_.end());
-  const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active_);
-  if (covariance.rows() == 0) return;
-  belief_.covariance = covariance;
-  belief_.pose = graph_.keyframes().back().pose;
+  if (given_.empty()) {
+    const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active_);
+    if (covariance.rows() == 0) return;
+    belief_.covariance = covariance;
+    belief_.pose = graph_.keyframes().back().pose;
+  } else {
+    const auto size = static_cast<Eigen::Index>(3 + 2 * active_.size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+    covariance.topLeftCorner<3, 3>() = belief_.covariance.topLeftCorner<3, 3>();
+    for (std::size_t k = 0; k < active_.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(3 + 2 * k);
+      covariance.block<2, 2>(at, at) = given_[active_[k]];
+    }
+    belief_.covariance = std::move(covariance);
+  }
   belief_.walls.clear();
   for (const std::size_t index : active_) {
     belief_.walls.emplace_back(graph_.landmarks()[index].phi, graph_.landmarks()[index].offset);
   }
   refreshed_at_ = belief_.pose;
   refreshed_keyframe_ = keyframe;
-  merge_same_walls();
+  if (given_.empty()) merge_same_walls();
 }
 
 /// Walls that are one within their joint covariance, where that is narrow enough to tell.
@@ -614,8 +634,12 @@ bool Landmarks::relocalize(Localization& result) {
   // A new keyframe that the motion does not tie to the one before.
   since_.pose = between(belief_.pose, pose);
   since_.covariance = Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal();
-  graph_.add_keyframe(pose, since_);
   belief_.pose = pose;
+  if (given_.empty()) {
+    graph_.add_keyframe(pose, since_);
+  } else {
+    belief_.covariance = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
+  }
   since_ = PoseEstimate{};
   refresh();
   since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
@@ -644,7 +668,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     result.weak_direction.reset();
     last_pose_ = belief_.pose;
   } else {
-    const double seconds = std::max(1e-3, input.stamp - *stamp_);
+    const double seconds = stamp_ ? std::max(1e-3, input.stamp - *stamp_) : 0.1;
     has_odometry_ = input.motion.has_value();
     if (input.motion) {
       since_ = compose_correlated(since_, *input.motion);
@@ -700,8 +724,11 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       result.pose = {belief_.pose, belief_.covariance.topLeftCorner<3, 3>()};
     }
   }
-  const std::size_t keyframe = graph_.keyframes().size() - 1;
-  scans_.emplace_back(keyframe, between(graph_.keyframes()[keyframe].pose, result.pose.pose));
+  result.keyframe.reset();
+  if (given_.empty()) {
+    result.keyframe = graph_.keyframes().size() - 1;
+    result.in_keyframe = between(graph_.keyframes().back().pose, result.pose.pose);
+  }
   stamp_ = input.stamp;
   if (!input.wants_map) return;
   for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
@@ -716,13 +743,48 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
   }
 }
 
-std::vector<Pose2> Landmarks::trajectory() const {
+std::vector<Pose2> Landmarks::keyframes() const {
   std::vector<Pose2> poses;
-  poses.reserve(scans_.size());
-  for (const auto& [keyframe, pose] : scans_) {
-    poses.push_back(compose(graph_.keyframes()[keyframe].pose, pose));
+  if (!given_.empty()) return poses;
+  poses.reserve(graph_.keyframes().size());
+  for (const LandmarkGraph::Keyframe& keyframe : graph_.keyframes()) {
+    poses.push_back(keyframe.pose);
   }
   return poses;
+}
+
+void Landmarks::use_map(std::span<const MapLine> map, const std::optional<PoseEstimate>& pose) {
+  reset();
+  for (const MapLine& line : map) {
+    const double length = line.length();
+    if (!(length > 0.0)) continue;
+    const Eigen::Vector2d along = (line.end - line.start) / length;
+    LineLandmark landmark;
+    landmark.anchor = line.middle();
+    landmark.phi = direction_of(along.y(), -along.x());
+    landmark.low = -0.5 * length;
+    landmark.high = 0.5 * length;
+    landmark.observations = std::max<std::size_t>(line.observations, 3);
+    Eigen::Matrix2d covariance = line.covariance;
+    if (!(covariance.determinant() > 0.0)) {
+      const double offset = parameters_.plan_stddev;
+      const double turn = std::min(2.0 * offset / length, 0.1);
+      covariance = Eigen::Vector2d(turn * turn, offset * offset).asDiagonal();
+    }
+    graph_.add_landmark(landmark);
+    given_.push_back(covariance);
+    if (line.observations > 0) continue;
+    landmark.phi = normalized_angle(landmark.phi + pi);  // the other face
+    graph_.add_landmark(landmark);
+    given_.push_back(covariance);
+  }
+  const PoseEstimate from =
+      pose.value_or(PoseEstimate{{}, Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal()});
+  lost_ = !pose;
+  graph_.add_keyframe(from.pose, {});
+  belief_.pose = last_pose_ = from.pose;
+  belief_.covariance = from.covariance;
+  refresh();
 }
 
 }  // namespace quoin

@@ -41,6 +41,7 @@ class Landmarks {
     double reach = 15.0;             // [m]
     double speed_stddev = 0.5;       // [m/s]
     double turn_stddev = 1.0;        // [rad/s]
+    double plan_stddev = 0.02;       // [m]
 
     static constexpr auto fields() {
       return std::make_tuple(
@@ -57,7 +58,9 @@ class Landmarks {
           field(&Parameters::speed_stddev, "speed_stddev", "m/s", 0.001, 50.0,
                 "without odometry: how far the speed may be from that of the scan before"),
           field(&Parameters::turn_stddev, "turn_stddev", "rad/s", 0.001, 50.0,
-                "the same of the turn rate"));
+                "the same of the turn rate"),
+          field(&Parameters::plan_stddev, "plan_stddev", "m", 0.001, 1.0,
+                "of walls of a given map that say nothing of how exact they are"));
     }
   };
 
@@ -66,10 +69,22 @@ class Landmarks {
 
   void operator()(const LocalizationInput& input, Localization& result);
 
+  void use_map(std::span<const MapLine> map, const std::optional<PoseEstimate>& pose);
+  void reset() { *this = Landmarks(parameters_); }
+  /// By the last state of the graph: what was smoothed since counts.
+  [[nodiscard]] std::vector<Pose2> keyframes() const;
+
   [[nodiscard]] const LandmarkGraph& graph() const { return graph_; }
-  /// Poses of all scans by the last state of the graph: what was smoothed since counts.
-  [[nodiscard]] std::vector<Pose2> trajectory() const;
   [[nodiscard]] std::size_t closed_loops() const { return closed_loops_; }
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.graph_, self.given_, self.active_, self.belief_, self.since_,
+            self.search_covariance_, self.well_matched_, self.last_pose_, self.velocity_,
+            self.stamp_, self.lost_since_, self.unfit_scans_, self.found_scans_, self.has_odometry_,
+            self.fits_, self.lost_, self.refreshed_at_, self.refreshed_keyframe_,
+            self.last_loop_keyframe_, self.closed_loops_, self.candidate_);
+  }
 
  private:
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // measurement, place in active_
@@ -78,6 +93,11 @@ class Landmarks {
     Pose2 pose;
     std::vector<Eigen::Vector2d> walls;  // (phi, offset) of active_
     Eigen::MatrixXd covariance;
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+      archive(self.pose, self.walls, self.covariance);
+    }
   };
 
   [[nodiscard]] LineLandmark wall(const Belief& belief, std::size_t place) const;
@@ -118,7 +138,7 @@ class Landmarks {
   std::size_t closed_loops_ = 0;
   std::optional<Pose2> candidate_;  // a pose found again, until the next scan confirms it
   std::vector<LineMeasurement> measurements_;
-  std::vector<std::pair<std::size_t, Pose2>> scans_;  // keyframe and pose of each scan in its frame
+  std::vector<Eigen::Matrix2d> given_;  // covariances of the landmarks of a map that stays as it is
 };
 
 }  // namespace quoin

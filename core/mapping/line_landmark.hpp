@@ -19,6 +19,11 @@ struct LineMeasurement {
   double half_length = 0.0;                          ///< [m]
   /// Of (alpha [rad], offset of the middle along the normal [m]).
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.alpha, self.middle, self.half_length, self.covariance);
+  }
 };
 
 /// Of a line as it was fitted. `flatness_stddev` [m] is what its covariance does not hold yet of
@@ -44,6 +49,12 @@ struct LineLandmark {
     return anchor + offset * normal() + s * along();
   }
   [[nodiscard]] double length() const { return high - low; }
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.anchor, self.phi, self.offset, self.low, self.high, self.observations,
+            self.first_keyframe, self.last_keyframe, self.alive);
+  }
 };
 
 /// Measured less expected: of the direction [rad] and of the offset at the middle [m], with

@@ -68,13 +68,17 @@ std::optional<LineMatch> LineMap::find(const Eigen::Vector2d& start,
 }
 
 std::size_t LineMap::add(const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
-  const std::size_t index = lines_.size();
   MapLine line;
-  line.id = index;
   line.start = start;
   line.end = end;
   line.observations = 1;
+  return add(line);
+}
+
+std::size_t LineMap::add(const MapLine& line) {
+  const std::size_t index = lines_.size();
   lines_.push_back(line);
+  lines_.back().id = index;
   cells_[cell_of(line.middle())].push_back(index);
   return index;
 }
@@ -105,6 +109,13 @@ std::size_t LineMap::merge(const Eigen::Vector2d& start, const Eigen::Vector2d& 
   if (!match) return add(start, end);
   extend(match->index, start, end);
   return match->index;
+}
+
+void LineMap::restore_cells() {
+  cells_.clear();
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    cells_[cell_of(lines_[i].middle())].push_back(i);
+  }
 }
 
 void LineMap::clear() {

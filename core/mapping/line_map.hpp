@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct MapLine {
   [[nodiscard]] Eigen::Vector2d middle() const { return 0.5 * (start + end); }
   [[nodiscard]] double length() const { return (end - start).norm(); }
   [[nodiscard]] double direction() const;  ///< [rad] from start to end
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.id, self.start, self.end, self.covariance, self.observations);
+  }
 };
 
 /// The stored line that a new one continues.
@@ -56,6 +62,9 @@ class LineMap {
   /// Stores a new line; returns its index.
   std::size_t add(const Eigen::Vector2d& start, const Eigen::Vector2d& end);
 
+  /// The same with a line as it is; its id becomes the index.
+  std::size_t add(const MapLine& line);
+
   /// Lengthens a stored line, whose direction stays, to the projections of these ends.
   void extend(std::size_t index, const Eigen::Vector2d& start, const Eigen::Vector2d& end);
 
@@ -65,7 +74,14 @@ class LineMap {
   [[nodiscard]] std::span<const MapLine> lines() const { return lines_; }
   void clear();
 
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.lines_);
+    if constexpr (!std::is_const_v<Self>) self.restore_cells();
+  }
+
  private:
+  void restore_cells();
   using Cell = std::uint64_t;
   [[nodiscard]] Cell cell_of(const Eigen::Vector2d& point, int right = 0, int up = 0) const;
 

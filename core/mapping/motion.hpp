@@ -17,6 +17,11 @@ namespace quoin {
 struct PoseEstimate {
   Pose2 pose;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.pose, self.covariance);
+  }
 };
 
 /// The pose that is `second` in the frame of `first`.

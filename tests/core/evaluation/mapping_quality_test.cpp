@@ -40,8 +40,8 @@ TEST(RelationErrors, InterpolateOverShortGapsOnly) {
 }
 
 TEST(MappingQuality, OfDeadReckoningIsItsSlip) {
-  Localizer dead_reckoning = [pose = PoseEstimate{}](const LocalizationInput& input,
-                                                     Localization& result) mutable {
+  Localize dead_reckoning = [pose = PoseEstimate{}](const LocalizationInput& input,
+                                                    Localization& result) mutable {
     if (input.motion) pose = compose(pose, *input.motion);
     result.pose = pose;
     result.status = LocalizationStatus::tracking;
