@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -139,6 +140,51 @@ std::string circles_text(const Json& message) {
   return text.str();
 }
 
+/// "(1.000, -2.000) m 90.00 deg", and what it is known to.
+std::string pose_estimate_text(const Json& estimate) {
+  const double sigma =
+      std::sqrt(0.5 * (real(estimate, "covariance_xx") + real(estimate, "covariance_yy")));
+  return " (" + fixed(real(estimate, "x"), 3) + ", " + fixed(real(estimate, "y"), 3) + ") m " +
+         fixed(real(estimate, "theta") * degrees_per_radian, 2) + " deg sigma " +
+         fixed(sigma * 1e3, 1) + " mm " +
+         fixed(std::sqrt(real(estimate, "covariance_theta")) * degrees_per_radian, 3) + " deg";
+}
+
+std::string odometry_text(const Json& message) {
+  std::string text = pose_estimate_text(message.at("pose"));
+  if (!message.at("velocity_known").get<bool>()) return text;
+  return text + ", " +
+         fixed(std::hypot(real(message, "velocity_x"), real(message, "velocity_y")), 3) + " m/s " +
+         fixed(real(message, "velocity_theta") * degrees_per_radian, 2) + " deg/s";
+}
+
+std::string pose_text(const Json& message) {
+  std::string status = text_of(message, "status");
+  if (status.starts_with("POSE_")) status.erase(0, 5);
+  std::ranges::transform(status, status.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string text = pose_estimate_text(message.at("pose")) + ", " + status;
+  if (const Json& weak = message.at("weak_direction"); weak.is_number()) {
+    text += " along " + fixed(weak.get<double>() * degrees_per_radian, 1) + " deg";
+  }
+  return text + ", " + std::to_string(count(message, "matched")) + " of " +
+         std::to_string(count(message, "lines")) + " lines in the map";
+}
+
+std::string line_map_text(const Json& message) {
+  double length = 0.0;
+  for (const Json& line : message.at("lines")) {
+    const Json& start = line.at("start");
+    const Json& end = line.at("end");
+    length += std::hypot(real(end, "x") - real(start, "x"), real(end, "y") - real(start, "y"));
+  }
+  std::ostringstream text;
+  text << " version " << count(message, "version") << ", part " << count(message, "part") + 1
+       << " of " << count(message, "parts") << ": " << message.at("lines").size() << " walls of "
+       << fixed(length, 1) << " m";
+  return text.str();
+}
+
 // Appends " name value," for each single value and " name[length]," for each sequence.
 void append_fields(const Json& object, const std::string& prefix, std::string& text) {
   for (const auto& [name, value] : object.items()) {
@@ -167,11 +213,10 @@ std::string fields_without_header(Json message) {
 
 // Types with a text that says more than their fields would.
 constexpr std::pair<std::string_view, std::string (*)(const Json&)> texts[] = {
-    {"quoin::msg::Scan", scan_text},
-    {"quoin::msg::Segments", segments_text},
-    {"quoin::msg::Lines", lines_text},
-    {"quoin::msg::Corners", corners_text},
-    {"quoin::msg::Circles", circles_text}};
+    {"quoin::msg::Scan", scan_text},       {"quoin::msg::Segments", segments_text},
+    {"quoin::msg::Lines", lines_text},     {"quoin::msg::Corners", corners_text},
+    {"quoin::msg::Circles", circles_text}, {"quoin::msg::Odometry", odometry_text},
+    {"quoin::msg::Pose", pose_text},       {"quoin::msg::LineMap", line_map_text}};
 
 // Throws Json::exception for a message without our header, or of another version of its type.
 std::string own_text(std::string_view dds_type, const Json& message) {

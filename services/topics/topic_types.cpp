@@ -15,6 +15,9 @@ constexpr std::array table{
     TopicType{"lines", "quoin::msg::Lines", "feature", "Lines.idl"},
     TopicType{"corners", "quoin::msg::Corners", "feature", "Corners.idl"},
     TopicType{"circles", "quoin::msg::Circles", "feature", "Circles.idl"},
+    TopicType{"odometry", "quoin::msg::Odometry", "feature", "Odometry.idl"},
+    TopicType{"pose", "quoin::msg::Pose", "feature", "Pose.idl"},
+    TopicType{"line_map", "quoin::msg::LineMap", "state", "LineMap.idl"},
 };
 
 const TopicType* find(std::string_view TopicType::*column, std::string_view value) {

@@ -8,8 +8,8 @@
 /// and data representation have to fit the other side, the depth of the history is each side's own.
 typedef enum QosPreset {
   QOS_SENSOR,   // scans
-  QOS_FEATURE,  // segments, lines, corners, circles
-  QOS_STATE     // the keyed status topic: a late reader gets the latest of every service
+  QOS_FEATURE,  // segments, lines, corners, circles, odometry, pose
+  QOS_STATE     // keyed topics, line_map and status: a late reader gets the latest of every key
 } QosPreset;
 
 /// To be deleted with dds_delete_qos().

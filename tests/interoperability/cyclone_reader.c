@@ -30,6 +30,15 @@ static void print_corners(JsonWriter* writer, const void* message) {
 static void print_circles(JsonWriter* writer, const void* message) {
   write_circles(writer, "message", message);
 }
+static void print_odometry(JsonWriter* writer, const void* message) {
+  write_odometry(writer, "message", message);
+}
+static void print_pose(JsonWriter* writer, const void* message) {
+  write_pose(writer, "message", message);
+}
+static void print_line_map(JsonWriter* writer, const void* message) {
+  write_line_map(writer, "message", message);
+}
 static void print_status(JsonWriter* writer, const void* message) {
   write_status(writer, "message", message);
 }
@@ -47,6 +56,9 @@ static const MessageKind kinds[] = {
     {"/lines", &quoin_msg_Lines_desc, QOS_FEATURE, print_lines},
     {"/corners", &quoin_msg_Corners_desc, QOS_FEATURE, print_corners},
     {"/circles", &quoin_msg_Circles_desc, QOS_FEATURE, print_circles},
+    {"/odometry", &quoin_msg_Odometry_desc, QOS_FEATURE, print_odometry},
+    {"/pose", &quoin_msg_Pose_desc, QOS_FEATURE, print_pose},
+    {"/line_map", &quoin_msg_LineMap_desc, QOS_STATE, print_line_map},
     {"/status", &quoin_msg_ServiceStatus_desc, QOS_STATE, print_status},
 };
 
@@ -62,8 +74,11 @@ static const MessageKind* kind_of(const char* topic) {
   for (size_t i = 0; ending != NULL && i < sizeof kinds / sizeof kinds[0]; ++i) {
     if (strcmp(ending, kinds[i].ending) == 0) return &kinds[i];
   }
-  fprintf(stderr, "'%s' ends in none of /scan, /segments, /lines, /corners, /circles, /status\n",
-          topic);
+  fprintf(stderr, "'%s' ends in none of", topic);
+  for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
+    fprintf(stderr, " %s", kinds[i].ending);
+  }
+  fprintf(stderr, "\n");
   exit(2);
 }
 

@@ -71,12 +71,12 @@ typedef struct Task {
 static const char* const usage =
     "usage: %s DOMAIN NAMESPACE SERVICE COUNT READERS\npublishes COUNT scans at 20 Hz as "
     "NAMESPACE/SERVICE/scan once READERS are there\n"
-    "       %s DOMAIN TOPIC COUNT READERS RATE sensor|best_effort [SERVICE]\nas a topic of any name; "
+    "       %s DOMAIN TOPIC COUNT READERS RATE sensor|best_effort [SERVICE]\nas a topic of any "
+    "name; "
     "without SERVICE origin and trace of the headers are left empty\n";
 
 static void set_topic(Task* task, const char* name_space, const char* rest, const char* last) {
-  const int length =
-      snprintf(task->topic, sizeof task->topic, "%s%s%s", name_space, rest, last);
+  const int length = snprintf(task->topic, sizeof task->topic, "%s%s%s", name_space, rest, last);
   if (length >= 0 && (size_t)length < sizeof task->topic) return;
   fprintf(stderr, "the name of the topic is too long\n");
   exit(2);

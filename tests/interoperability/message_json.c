@@ -220,6 +220,70 @@ void write_circles(JsonWriter* writer, const char* name, const quoin_msg_Circles
   json_end_object(writer);
 }
 
+static void write_pose_estimate(JsonWriter* writer, const quoin_msg_PoseEstimate* estimate) {
+  json_begin_object(writer, "pose");
+  json_double(writer, "x", estimate->x);
+  json_double(writer, "y", estimate->y);
+  json_double(writer, "theta", estimate->theta);
+  json_double(writer, "covariance_xx", estimate->covariance_xx);
+  json_double(writer, "covariance_xy", estimate->covariance_xy);
+  json_double(writer, "covariance_yy", estimate->covariance_yy);
+  json_double(writer, "covariance_x_theta", estimate->covariance_x_theta);
+  json_double(writer, "covariance_y_theta", estimate->covariance_y_theta);
+  json_double(writer, "covariance_theta", estimate->covariance_theta);
+  json_end_object(writer);
+}
+
+void write_odometry(JsonWriter* writer, const char* name, const quoin_msg_Odometry* odometry) {
+  json_begin_object(writer, name);
+  write_header(writer, &odometry->header);
+  json_string(writer, "child_frame", odometry->child_frame);
+  write_pose_estimate(writer, &odometry->pose);
+  json_bool(writer, "velocity_known", odometry->velocity_known);
+  json_double(writer, "velocity_x", odometry->velocity_x);
+  json_double(writer, "velocity_y", odometry->velocity_y);
+  json_double(writer, "velocity_theta", odometry->velocity_theta);
+  json_end_object(writer);
+}
+
+void write_pose(JsonWriter* writer, const char* name, const quoin_msg_Pose* pose) {
+  static const char* const names[] = {"POSE_TRACKING", "POSE_AMBIGUOUS", "POSE_LOST"};
+  json_begin_object(writer, name);
+  write_header(writer, &pose->header);
+  json_string(writer, "child_frame", pose->child_frame);
+  write_pose_estimate(writer, &pose->pose);
+  json_string(writer, "status", (unsigned)pose->status < 3 ? names[pose->status] : "unknown");
+  json_double(writer, "weak_direction", pose->weak_direction);
+  json_bool(writer, "odometry", pose->odometry);
+  json_unsigned(writer, "lines", pose->lines);
+  json_unsigned(writer, "matched", pose->matched);
+  json_end_object(writer);
+}
+
+void write_line_map(JsonWriter* writer, const char* name, const quoin_msg_LineMap* map) {
+  json_begin_object(writer, name);
+  write_header(writer, &map->header);
+  json_unsigned(writer, "part", map->part);
+  json_unsigned(writer, "parts", map->parts);
+  json_unsigned(writer, "begun", map->begun);
+  json_unsigned(writer, "version", map->version);
+  json_begin_array(writer, "lines");
+  for (uint32_t i = 0; i < map->lines._length; ++i) {
+    const quoin_msg_MapLine* line = &map->lines._buffer[i];
+    json_begin_object(writer, NULL);
+    json_unsigned(writer, "id", line->id);
+    write_point(writer, "start", &line->start);
+    write_point(writer, "end", &line->end);
+    json_double(writer, "covariance_direction", line->covariance_direction);
+    json_double(writer, "covariance_direction_offset", line->covariance_direction_offset);
+    json_double(writer, "covariance_offset", line->covariance_offset);
+    json_unsigned(writer, "observations", line->observations);
+    json_end_object(writer);
+  }
+  json_end_array(writer);
+  json_end_object(writer);
+}
+
 void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceStatus* status) {
   json_begin_object(writer, name);
   json_string(writer, "service", status->service);

@@ -4,7 +4,10 @@
 
 #include "Circles.h"
 #include "Corners.h"
+#include "LineMap.h"
 #include "Lines.h"
+#include "Odometry.h"
+#include "Pose.h"
 #include "Scan.h"
 #include "Segments.h"
 #include "Status.h"
@@ -16,5 +19,8 @@ void write_segments(JsonWriter* writer, const char* name, const quoin_msg_Segmen
 void write_lines(JsonWriter* writer, const char* name, const quoin_msg_Lines* lines);
 void write_corners(JsonWriter* writer, const char* name, const quoin_msg_Corners* corners);
 void write_circles(JsonWriter* writer, const char* name, const quoin_msg_Circles* circles);
+void write_odometry(JsonWriter* writer, const char* name, const quoin_msg_Odometry* odometry);
+void write_pose(JsonWriter* writer, const char* name, const quoin_msg_Pose* pose);
+void write_line_map(JsonWriter* writer, const char* name, const quoin_msg_LineMap* map);
 /// What identifies the service, its state and its counts.
 void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceStatus* status);

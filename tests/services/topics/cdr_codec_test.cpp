@@ -6,7 +6,9 @@
 #include <idl/Circles.h>
 #include <idl/Control.h>
 #include <idl/Corners.h>
+#include <idl/LineMap.h>
 #include <idl/Lines.h>
+#include <idl/Odometry.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
 #include <idl/Status.h>
@@ -154,6 +156,63 @@ TEST(CdrCodec, JsonOfCircles) {
                 R"("failures":[{"arc":1,"reason":"not_determined"}]})");
 }
 
+const char* const zero_covariance_json =
+    R"("covariance_xx":0.0,"covariance_xy":0.0,"covariance_yy":0.0,)"
+    R"("covariance_x_theta":0.0,"covariance_y_theta":0.0,"covariance_theta":0.0)";
+
+TEST(CdrCodec, JsonOfOdometry) {
+  msg::Odometry odometry;
+  fill(odometry.header());
+  odometry.child_frame("base_link");
+  odometry.pose().x(1.5);
+  odometry.pose().theta(-0.25);
+  odometry.velocity_known(true);
+  odometry.velocity_theta(2.0);
+  EXPECT_EQ(to_json(odometry).dump(),
+            std::string("{") + header_json +
+                R"(,"child_frame":"base_link","pose":{"x":1.5,"y":0.0,"theta":-0.25,)" +
+                zero_covariance_json +
+                R"(},"velocity_known":true,"velocity_x":0.0,"velocity_y":0.0,)"
+                R"("velocity_theta":2.0})");
+}
+
+TEST(CdrCodec, JsonOfAPose) {
+  msg::Pose pose;
+  fill(pose.header());
+  pose.child_frame("base_link");
+  pose.pose().y(2.5);
+  pose.status(msg::PoseStatus::POSE_LOST);
+  pose.weak_direction(NAN);
+  pose.lines(7);
+  pose.matched(3);
+  EXPECT_EQ(to_json(pose).dump(),
+            std::string("{") + header_json +
+                R"(,"child_frame":"base_link","pose":{"x":0.0,"y":2.5,"theta":0.0,)" +
+                zero_covariance_json +
+                R"(},"status":"POSE_LOST","weak_direction":null,"odometry":false,)"
+                R"("lines":7,"matched":3})");
+}
+
+TEST(CdrCodec, JsonOfALineMap) {
+  msg::LineMap map;
+  fill(map.header());
+  map.part(1);
+  map.parts(2);
+  map.begun(9);
+  map.version(4);
+  map.lines().resize(1);
+  map.lines()[0].id(130);
+  map.lines()[0].end().x(2.0);
+  map.lines()[0].covariance_offset(0.5);
+  map.lines()[0].observations(6);
+  EXPECT_EQ(to_json(map).dump(),
+            std::string("{") + header_json +
+                R"(,"part":1,"parts":2,"begun":9,"version":4,"lines":[{"id":130,)"
+                R"("start":{"x":0.0,"y":0.0},"end":{"x":2.0,"y":0.0},"covariance_direction":0.0,)"
+                R"("covariance_direction_offset":0.0,"covariance_offset":0.5,)"
+                R"("observations":6}]})");
+}
+
 TEST(CdrCodec, JsonOfTypesOutsideTheTable) {
   msg::ServiceStatus status;
   status.state(msg::STATE_ACTIVE);
@@ -173,9 +232,13 @@ TEST(CdrCodec, TypesHaveTheNamesThatTheTableHas) {
   EXPECT_EQ(type_name<msg::Lines>(), find_topic_type("lines")->dds_type);
   EXPECT_EQ(type_name<msg::Corners>(), find_topic_type("corners")->dds_type);
   EXPECT_EQ(type_name<msg::Circles>(), find_topic_type("circles")->dds_type);
+  EXPECT_EQ(type_name<msg::Odometry>(), find_topic_type("odometry")->dds_type);
+  EXPECT_EQ(type_name<msg::Pose>(), find_topic_type("pose")->dds_type);
+  EXPECT_EQ(type_name<msg::LineMap>(), find_topic_type("line_map")->dds_type);
   EXPECT_EQ(cdr_codec<msg::Scan>().type_name, "quoin::msg::Scan");
   EXPECT_FALSE(cdr_codec<msg::Scan>().keyed);
   EXPECT_TRUE(cdr_codec<msg::ServiceStatus>().keyed);
+  EXPECT_TRUE(cdr_codec<msg::LineMap>().keyed);
 }
 
 TEST(CdrCodec, BytesAreThoseOfTheStandard) {

@@ -57,6 +57,36 @@ TEST(MessageText, CirclesAndArcsWithoutOne) {
             "sigma 1.00 mm (12 points); arc 1 not_determined;");
 }
 
+TEST(MessageText, OdometryAndPoses) {
+  const char* const estimate = R"("pose": {"x": 1.0, "y": -2.0, "theta": 1.5707963267948966,
+      "covariance_xx": 1e-6, "covariance_yy": 1e-6, "covariance_theta": 0.0})";
+  const std::string known = "(1.000, -2.000) m 90.00 deg sigma 1.0 mm 0.000 deg";
+  const auto fields = [&](const char* more) {
+    return with_header(("{" + std::string(estimate) + ", " + more + "}").c_str());
+  };
+  EXPECT_EQ(to_text("quoin::msg::Odometry",
+                    fields(R"("velocity_known": true, "velocity_x": 0.3, "velocity_y": 0.4,
+                              "velocity_theta": 0.0)")),
+            "front #42 stamp 1.500000 laser +1.25 ms: " + known + ", 0.500 m/s 0.00 deg/s");
+  EXPECT_EQ(to_text("quoin::msg::Odometry", fields(R"("velocity_known": false)")),
+            "front #42 stamp 1.500000 laser +1.25 ms: " + known);
+  EXPECT_EQ(
+      to_text("quoin::msg::Pose", fields(R"("status": "POSE_TRACKING", "lines": 7,
+                                                  "matched": 5, "weak_direction": null)")),
+      "front #42 stamp 1.500000 laser +1.25 ms: " + known + ", tracking, 5 of 7 lines in the map");
+  EXPECT_EQ(to_text("quoin::msg::Pose", fields(R"("status": "POSE_AMBIGUOUS", "lines": 2,
+                                                  "matched": 2, "weak_direction": 0.0)")),
+            "front #42 stamp 1.500000 laser +1.25 ms: " + known +
+                ", ambiguous along 0.0 deg, 2 of 2 lines in the map");
+}
+
+TEST(MessageText, PartsOfALineMap) {
+  EXPECT_EQ(
+      to_text("quoin::msg::LineMap", with_header(R"({"part": 0, "parts": 2, "version": 9, "lines": [
+                        {"start": {"x": 0, "y": 0}, "end": {"x": 3, "y": 4}}]})")),
+      "front #42 stamp 1.500000 laser +1.25 ms: version 9, part 1 of 2: 1 walls of 5.0 m");
+}
+
 TEST(MessageText, AnyOtherTypeShowsItsValues) {
   EXPECT_EQ(to_text("quoin::msg::New", with_header(R"({"pose": {"x": 1.5, "frame": "map"},
                                                        "points": [1, 2, 3], "valid": true})")),

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "services/topics/corners.hpp"
 #include "services/topics/lines.hpp"
+#include "services/topics/poses.hpp"
 #include "services/topics/segments.hpp"
 
 namespace quoin::topics {
@@ -128,6 +131,32 @@ TEST(Messages, CornersCarryTheirEllipses) {
   ASSERT_EQ(message.without().size(), 1U);
   EXPECT_EQ(message.without()[0].first_line(), 4U);
   EXPECT_EQ(message.without()[0].reason(), "wide_gap");
+}
+
+TEST(Messages, PosesGoThereAndBack) {
+  PoseEstimate estimate{{1.0, -2.0, 0.5}, {}};
+  estimate.covariance << 4.0, 0.5, 0.1, 0.5, 3.0, 0.2, 0.1, 0.2, 1.0;
+  const msg::PoseEstimate message = pose_message(estimate);
+  const PoseEstimate back = pose_estimate(message);
+  EXPECT_EQ(back.pose.x, 1.0);
+  EXPECT_EQ(back.pose.y, -2.0);
+  EXPECT_EQ(back.pose.theta, 0.5);
+  EXPECT_EQ(back.covariance, estimate.covariance);
+  EXPECT_TRUE(valid(message));
+}
+
+TEST(Messages, PosesThatAreNoneAreInvalid) {
+  msg::PoseEstimate message;
+  EXPECT_TRUE(valid(message));
+  message.x(std::nan(""));
+  EXPECT_FALSE(valid(message));
+  message.x(1e300);
+  EXPECT_FALSE(valid(message));
+  message.x(0.0);
+  message.covariance_yy(-1.0);
+  EXPECT_FALSE(valid(message));
+  message.covariance_yy(INFINITY);
+  EXPECT_FALSE(valid(message));
 }
 
 }  // namespace
