@@ -104,6 +104,7 @@ int run(const DoctorOptions& options, bool one_namespace) {
   Checks checks{check_shared_memory(stale)};
   if (removed > 0) checks.back().text += "; " + std::to_string(removed) + " were removed";
   append(checks, check_interfaces(deployment.network));
+  append(checks, check_ros2(deployment, ros2::look_around()));
   checks.push_back(check_socket_buffers("/proc/sys/net/core", runtime::socket_buffer_bytes));
   // Without security nothing is sent that has to be put together again.
   if (deployment.security && !deployment.network.interfaces.empty()) {

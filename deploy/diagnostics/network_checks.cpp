@@ -97,4 +97,18 @@ Checks check_line_scatter(const std::vector<HeardProcess>& processes) {
   return checks;
 }
 
+Checks check_ros2(const Deployment& deployment, const ros2::Surroundings& surroundings) {
+  if (!ros2::speaks_to_ros2(deployment)) return {};
+  Checks checks;
+  for (const ros2::Obstacle& each : ros2::obstacles(deployment, surroundings)) {
+    checks.push_back({"ROS 2", Verdict::doubtful, each.text, each.advice});
+  }
+  if (checks.empty()) {
+    checks.push_back({"ROS 2", Verdict::good,
+                      "nothing here keeps the deployment and ROS 2 from discovering each other",
+                      ""});
+  }
+  return checks;
+}
+
 }  // namespace quoin::deploy

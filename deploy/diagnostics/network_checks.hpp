@@ -9,6 +9,8 @@
 
 #include "core/statistics/line_scatter.hpp"
 #include "deploy/diagnostics/check.hpp"
+#include "services/deployment/deployment.hpp"
+#include "services/ros2/reach.hpp"
 
 namespace quoin::deploy {
 
@@ -43,5 +45,10 @@ struct HeardProcess {
 /// Whether the lines of the last minute scatter as the sensor model says, which their covariances
 /// rest on.
 [[nodiscard]] Checks check_line_scatter(const std::vector<HeardProcess>& processes);
+
+/// Whether the services of `deployment` that speak to ROS 2 and programs of ROS 2 on this host
+/// discover each other; nothing where no service does.
+[[nodiscard]] Checks check_ros2(const Deployment& deployment,
+                                const ros2::Surroundings& surroundings);
 
 }  // namespace quoin::deploy

@@ -3,6 +3,7 @@
 #include "deploy/kinds/kinds.hpp"
 
 #include "sensor_bridge/replay/kind.hpp"
+#include "sensor_bridge/ros2_scan/kind.hpp"
 #include "sensor_bridge/rplidar/emulator_service/kind.hpp"
 #include "sensor_bridge/rplidar/service/kind.hpp"
 #include "sensor_bridge/simulated/kind.hpp"
@@ -15,11 +16,11 @@ namespace quoin::deploy {
 
 // A new kind is one line here.
 const KindList& kinds() {
-  static const KindList all{{&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
-                             &sensor_bridge::rplidar::rplidar_kind(),
-                             &sensor_bridge::rplidar::rplidar_emulator_kind(), &segmentation_kind(),
-                             &line_fitting_kind(), &corner_estimation_kind(),
-                             &circle_fitting_kind(), &external_kind()}};
+  static const KindList all{
+      {&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
+       &sensor_bridge::rplidar::rplidar_kind(), &sensor_bridge::rplidar::rplidar_emulator_kind(),
+       &sensor_bridge::ros2_scan_kind(), &segmentation_kind(), &line_fitting_kind(),
+       &corner_estimation_kind(), &circle_fitting_kind(), &external_kind()}};
   return all;
 }
 

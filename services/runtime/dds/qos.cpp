@@ -73,7 +73,7 @@ template <class Qos>
 Qos common_qos(Qos qos, const TopicQos& topic) {
   const QosPreset preset = topic.preset;
   const bool keyed = preset == QosPreset::state;
-  const int samples = history_depth(preset);
+  const int samples = topic.depth.value_or(history_depth(preset));
   qos.reliability().kind = preset == QosPreset::best_effort ? dds::BEST_EFFORT_RELIABILITY_QOS
                                                             : dds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = Duration_t(1, 0);
@@ -94,6 +94,7 @@ Qos common_qos(Qos qos, const TopicQos& topic) {
       preset == QosPreset::control || preset == QosPreset::observer
           ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
           : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.user_data().setValue({topic.user_data.begin(), topic.user_data.end()});
   if (topic.strength) {
     qos.ownership().kind = dds::EXCLUSIVE_OWNERSHIP_QOS;
     // With the other two kinds of liveliness Fast DDS 2.9 never gives up a writer that was killed

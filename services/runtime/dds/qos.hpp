@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "services/deployment/deployment.hpp"
@@ -33,6 +34,10 @@ struct TopicQos {
   /// A writer that neither wrote nor asserted its liveliness for this long is taken for dead; the
   /// same for all writers and readers of a topic.
   std::chrono::milliseconds lease{100};
+  /// Messages that the history holds in place of as many as the preset says.
+  std::optional<int> depth = std::nullopt;
+  /// What the endpoint announces beside it, for those who know of it.
+  std::string user_data = {};
 
   TopicQos(QosPreset preset_of_topic) : preset(preset_of_topic) {}
 };

@@ -13,6 +13,7 @@
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/node/local_topics.hpp"
 #include "services/runtime/process/service.hpp"
+#include "services/runtime/process/service_activity.hpp"
 
 namespace quoin::runtime {
 
@@ -212,6 +213,20 @@ Component node_component(const KindInfo& kind, PortTypes types, const MethodFact
             (void)factory(config.method, config.parameters);  // throws before DDS is touched
             return [&kind, &types, factory](Service& service) {
               return NodeThread(service, kind, types, factory).run();
+            };
+          }};
+}
+
+Component node_component(const KindInfo& kind, PortTypes types, OpenMethods open) {
+  return {&kind,
+          [&kind, types = std::move(types), open = std::move(open)](
+              const Deployment& deployment, const ServiceConfig& config) -> Component::Body {
+            return [&kind, &types, bind = opened(deployment, config, [&] {
+                                     return open(deployment, config);
+                                   })](Service& service) {
+              return NodeThread(service, kind, types,
+                                checked(kind, bind(service.process.participant)))
+                  .run();
             };
           }};
 }

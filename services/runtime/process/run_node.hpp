@@ -23,6 +23,13 @@ using Handler = std::function<std::size_t(const In&, Out&)>;
 [[nodiscard]] Component node_component(const KindInfo& kind, PortTypes types,
                                        const MethodFactory& make);
 
+/// The same for a kind whose methods write or read topics of their own, too. `open` looks at the
+/// service before DDS is touched; its exceptions are errors of the deployment file. What it returns
+/// makes the methods once there is a participant, which outlives them.
+using BindMethods = std::function<MethodFactory(Participant&)>;
+using OpenMethods = std::function<BindMethods(const Deployment&, const ServiceConfig&)>;
+[[nodiscard]] Component node_component(const KindInfo& kind, PortTypes types, OpenMethods open);
+
 /// The same for a kind that turns one message into one other. `make` makes the handler for a method
 /// and its parameters; it throws ParameterError.
 template <class In, class Out>

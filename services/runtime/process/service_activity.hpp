@@ -45,18 +45,24 @@ class ServiceActivity : public Base {
   Service& service_;
 };
 
-/// Calls `open`; its exceptions become errors of the deployment file at the place of the service.
-template <class Context>
-[[nodiscard]] std::function<void(Context&)> open_body(const BodyFactory<Context>& open,
-                                                      const Deployment& deployment,
-                                                      const ServiceConfig& config) {
+/// What `open` returns; its exceptions become errors of the deployment file at the place of the
+/// service.
+template <class Open>
+[[nodiscard]] auto opened(const Deployment& deployment, const ServiceConfig& config, Open open) {
   try {
-    return open(config, deployment.file.parent_path());
+    return open();
   } catch (const std::exception& error) {
     throw DeploymentError({deployment.file.string() + ":" + std::to_string(config.position.line) +
                            ":" + std::to_string(config.position.column) + ": service '" +
                            config.name + "': " + error.what()});
   }
+}
+
+template <class Context>
+[[nodiscard]] std::function<void(Context&)> open_body(const BodyFactory<Context>& open,
+                                                      const Deployment& deployment,
+                                                      const ServiceConfig& config) {
+  return opened(deployment, config, [&] { return open(config, deployment.file.parent_path()); });
 }
 
 }  // namespace quoin::runtime

@@ -52,6 +52,8 @@ class PublishingSource final : public ServiceActivity<Source> {
     return !service_.stop.requested();
   }
 
+  [[nodiscard]] Participant& participant() override { return service_.process.participant; }
+
  protected:
   bool publish_own(const std::type_info& type, void* message, msg::Header& header) override {
     for (std::size_t i = 1; i < outputs_.size(); ++i) {
@@ -183,14 +185,22 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
 
 }  // namespace
 
-Component source_component(const KindInfo& kind, SourceFactory open, PortTypes types) {
+Component source_component(const KindInfo& kind, DeploymentSourceFactory open, PortTypes types) {
   return {&kind,
           [&kind, open = std::move(open), types = std::move(types)](
               const Deployment& deployment, const ServiceConfig& config) -> Component::Body {
-            return [&kind, &types, body = open_body(open, deployment, config)](Service& service) {
-              return publish_all(service, kind, types, body);
-            };
+            return [&kind, &types,
+                    body = opened(deployment, config, [&] { return open(deployment, config); })](
+                       Service& service) { return publish_all(service, kind, types, body); };
           }};
+}
+
+Component source_component(const KindInfo& kind, SourceFactory open, PortTypes types) {
+  const auto in_deployment = [open = std::move(open)](const Deployment& deployment,
+                                                      const ServiceConfig& config) {
+    return open(config, deployment.file.parent_path());
+  };
+  return source_component(kind, DeploymentSourceFactory(in_deployment), std::move(types));
 }
 
 }  // namespace quoin::runtime

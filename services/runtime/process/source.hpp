@@ -37,6 +37,11 @@ class Source : public Activity {
     return publish_own(typeid(T), &message, message.header());
   }
 
+  /// To read topics that no service of the deployment writes.
+  [[nodiscard]] virtual Participant& participant() {
+    throw std::logic_error("a source without DDS");
+  }
+
  protected:
   virtual bool publish_own(const std::type_info&, void*, msg::Header&) {
     throw std::logic_error("a source with one output");
@@ -49,6 +54,13 @@ using SourceFactory = BodyFactory<Source>;
 /// returns when a finite source has published everything, or when `publish` or `wait_until` says
 /// false. `types`: of the kind's outputs, the scans first.
 [[nodiscard]] Component source_component(const KindInfo& kind, SourceFactory open,
+                                         PortTypes types = port_types(Reads<>(),
+                                                                      Writes<msg::Scan>()));
+
+/// The same for one that looks at the whole deployment, which outlives the body.
+using DeploymentSourceFactory =
+    std::function<std::function<void(Source&)>(const Deployment&, const ServiceConfig&)>;
+[[nodiscard]] Component source_component(const KindInfo& kind, DeploymentSourceFactory open,
                                          PortTypes types = port_types(Reads<>(),
                                                                       Writes<msg::Scan>()));
 

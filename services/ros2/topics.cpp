@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/ros2/topics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace quoin::ros2 {
+
+namespace {
+
+using runtime::QosPreset;
+
+// The hashes are those of the definitions of Jazzy, which Humble and Rolling share.
+constexpr std::array table{
+    // Reliable serves readers of sensor data, which ask for best effort, and all others.
+    TopicType{"sensor_msgs/msg/LaserScan",
+              "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828", QosPreset::sensor,
+              5},
+    TopicType{"visualization_msgs/msg/MarkerArray",
+              "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf",
+              QosPreset::feature, 10},
+    TopicType{"geometry_msgs/msg/PoseWithCovarianceStamped",
+              "26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e",
+              QosPreset::feature, 10},
+    TopicType{"nav_msgs/msg/Odometry",
+              "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
+              QosPreset::feature, 10},
+    TopicType{"nav_msgs/msg/OccupancyGrid",
+              "8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7", QosPreset::state,
+              1},
+    TopicType{"tf2_msgs/msg/TFMessage",
+              "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
+              QosPreset::feature, 100},
+    TopicType{"diagnostic_msgs/msg/DiagnosticArray",
+              "4c66654bbe437f346d65d007b65eb29d3dd440fb1d8a701be4f45e4753b9a325",
+              QosPreset::feature, 10},
+    TopicType{"rmw_dds_common/msg/ParticipantEntitiesInfo",
+              "91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", QosPreset::state,
+              1},
+};
+
+constexpr std::string_view before_type = "::msg::dds_::";
+
+bool is_name(std::string_view part) {
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  return !part.empty() && letter(part.front()) &&
+         std::ranges::all_of(part, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+}  // namespace
+
+std::span<const TopicType> topic_types() { return table; }
+
+const TopicType& topic_type(std::string_view name) {
+  const auto row = std::ranges::find(table, name, &TopicType::name);
+  if (row == table.end()) throw std::out_of_range("no ROS 2 type '" + std::string(name) + "'");
+  return *row;
+}
+
+std::string dds_type_name(std::string_view name) {
+  const std::string_view package = name.substr(0, name.find('/'));
+  const std::string_view type = name.substr(name.rfind('/') + 1);
+  return std::string(package) + std::string(before_type) + std::string(type) + "_";
+}
+
+std::string ros_type_name(std::string_view dds_type) {
+  const std::size_t found = dds_type.find(before_type);
+  if (found == std::string_view::npos || !dds_type.ends_with('_')) return "";
+  const std::string_view type = dds_type.substr(found + before_type.size());
+  return std::string(dds_type.substr(0, found)) + "/msg/" +
+         std::string(type.substr(0, type.size() - 1));
+}
+
+std::string dds_topic(std::string_view name) {
+  std::string_view rest = name.starts_with('/') ? name.substr(1) : name;
+  const std::string topic = "rt/" + std::string(rest);
+  while (true) {
+    const std::size_t slash = rest.find('/');
+    if (!is_name(rest.substr(0, slash))) {
+      throw std::invalid_argument("'" + std::string(name) +
+                                  "' is no name of a ROS 2 topic; write letters, digits and _ "
+                                  "between slashes, no digit first, such as /robot/scan");
+    }
+    if (slash == std::string_view::npos) return topic;
+    rest.remove_prefix(slash + 1);
+  }
+}
+
+runtime::TopicQos writer_qos(const TopicType& type) {
+  runtime::TopicQos qos = type.qos;
+  qos.depth = type.depth;
+  qos.user_data = "typehash=RIHS01_" + std::string(type.hash) + ";";
+  return qos;
+}
+
+runtime::TopicQos reader_qos(const TopicType& type, bool reliable) {
+  runtime::TopicQos qos = reliable ? QosPreset::feature : QosPreset::best_effort;
+  qos.user_data = writer_qos(type).user_data;
+  return qos;
+}
+
+}  // namespace quoin::ros2
