@@ -8,9 +8,9 @@
 #include "sensor_bridge/ros2_scan/parameters.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
 #include "services/ros2/messages.hpp"
-#include "services/ros2/reach.hpp"
 #include "services/ros2/scan_import.hpp"
 #include "services/ros2/subscription.hpp"
+#include "services/ros2/topics.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {

@@ -6,10 +6,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
-
-#include "core/parameters/parameter.hpp"
-#include "services/ros2/topics.hpp"
 
 namespace quoin::ros2 {
 
@@ -100,20 +96,6 @@ bool speaks_to_ros2(const Deployment& deployment) {
   return std::ranges::any_of(deployment.services, [](const ServiceConfig& service) {
     return service.kind.starts_with("ros2_");
   });
-}
-
-void check_topic(const Deployment& deployment, const std::string& parameter,
-                 const std::string& topic) {
-  if (deployment.security) {
-    throw std::invalid_argument(
-        "ROS 2 has no keys of this deployment's security; run the ROS 2 kinds in a deployment "
-        "without it");
-  }
-  try {
-    (void)dds_topic(topic);
-  } catch (const std::invalid_argument& error) {
-    throw ParameterError(parameter, error.what());
-  }
 }
 
 }  // namespace quoin::ros2

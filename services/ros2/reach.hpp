@@ -37,9 +37,4 @@ struct Obstacle {
 /// Whether a service of the deployment reads or writes topics of ROS 2.
 [[nodiscard]] bool speaks_to_ros2(const Deployment& deployment);
 
-/// Throws ParameterError when the value of that parameter is no name of a ROS 2 topic, and
-/// std::invalid_argument when the deployment has security, which ROS 2 has no keys for.
-void check_topic(const Deployment& deployment, const std::string& parameter,
-                 const std::string& topic);
-
 }  // namespace quoin::ros2

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "services/ros2/rep117.hpp"
 
 namespace quoin::ros2 {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // [s] From the first to the last ray of any 2D LiDAR.
 constexpr double longest_scan = 10.0;
@@ -135,12 +134,8 @@ void ScanImport::set_ranges(const LaserScan& in, msg::Scan& out) {
   out.range_min(range_min);
   out.range_max(range_max);
   out.ranges().resize(in.ranges().size());
-  std::ranges::transform(in.ranges(), out.ranges().begin(), [&](float range) {
-    if (range > range_max) return infinity;
-    if (range >= range_min && range > 0.0F) return range;
-    if (range > 0.0F || range == -infinity) return -infinity;
-    return std::numeric_limits<float>::quiet_NaN();
-  });
+  std::ranges::transform(in.ranges(), out.ranges().begin(),
+                         [&](float range) { return rep117_range(range, range_min, range_max); });
 }
 
 bool ScanImport::convert(const LaserScan& in, std::int64_t received, msg::Scan& out) {

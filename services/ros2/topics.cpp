@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "core/parameters/parameter.hpp"
+
 namespace quoin::ros2 {
 
 namespace {
@@ -87,6 +89,20 @@ std::string dds_topic(std::string_view name) {
     }
     if (slash == std::string_view::npos) return topic;
     rest.remove_prefix(slash + 1);
+  }
+}
+
+void check_topic(const Deployment& deployment, const std::string& parameter,
+                 const std::string& topic) {
+  if (deployment.security) {
+    throw std::invalid_argument(
+        "ROS 2 has no keys of this deployment's security; run the ROS 2 kinds in a deployment "
+        "without it");
+  }
+  try {
+    (void)dds_topic(topic);
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(parameter, error.what());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "services/deployment/deployment.hpp"
 #include "services/runtime/dds/qos.hpp"
 #include "services/topics/cdr_codec.hpp"
 
@@ -40,6 +41,11 @@ template <class T>
 /// What DDS calls a topic of ROS 2: "rt/scan" of "/scan" or "scan". Throws std::invalid_argument
 /// for what is no name of a topic.
 [[nodiscard]] std::string dds_topic(std::string_view name);
+
+/// Throws ParameterError when the value of that parameter is no name of a ROS 2 topic, and
+/// std::invalid_argument when the deployment has security, which ROS 2 has no keys for.
+void check_topic(const Deployment& deployment, const std::string& parameter,
+                 const std::string& topic);
 
 /// Of a writer of that type, with the hash that others look for.
 [[nodiscard]] runtime::TopicQos writer_qos(const TopicType& type);

@@ -13,7 +13,6 @@
 #include "services/deployment/deployment.hpp"
 #include "services/runtime/node/local_topics.hpp"
 #include "services/runtime/process/service.hpp"
-#include "services/runtime/process/service_activity.hpp"
 
 namespace quoin::runtime {
 

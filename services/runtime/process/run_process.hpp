@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "services/deployment/deployment.hpp"
@@ -24,6 +26,19 @@ struct Component {
   /// configuration.
   std::function<Body(const Deployment&, const ServiceConfig&)> open;
 };
+
+/// What `open` returns; its exceptions become errors of the deployment file at the place of the
+/// service.
+template <class Open>
+[[nodiscard]] auto opened(const Deployment& deployment, const ServiceConfig& config, Open open) {
+  try {
+    return open();
+  } catch (const std::exception& error) {
+    throw DeploymentError({deployment.file.string() + ":" + std::to_string(config.position.line) +
+                           ":" + std::to_string(config.position.column) + ": service '" +
+                           config.name + "': " + error.what()});
+  }
+}
 
 /// Makes a kind known to the main function of the program that this is linked into. One in the main
 /// file of a kind; the program of a kind has one, that of composed processes one of each.

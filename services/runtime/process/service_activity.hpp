@@ -45,19 +45,6 @@ class ServiceActivity : public Base {
   Service& service_;
 };
 
-/// What `open` returns; its exceptions become errors of the deployment file at the place of the
-/// service.
-template <class Open>
-[[nodiscard]] auto opened(const Deployment& deployment, const ServiceConfig& config, Open open) {
-  try {
-    return open();
-  } catch (const std::exception& error) {
-    throw DeploymentError({deployment.file.string() + ":" + std::to_string(config.position.line) +
-                           ":" + std::to_string(config.position.column) + ": service '" +
-                           config.name + "': " + error.what()});
-  }
-}
-
 template <class Context>
 [[nodiscard]] std::function<void(Context&)> open_body(const BodyFactory<Context>& open,
                                                       const Deployment& deployment,
