@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # From a fresh clone to three line fitters side by side on a simulated RPLIDAR S1. Installs missing
-# packages, builds into build/, and runs deploy/examples/side_by_side.yaml until Ctrl-C. Arguments go
-# to "quoin up":
+# packages, builds into build/, and runs deploy/examples/look.yaml with its page until Ctrl-C.
+# QUOIN_PORT is the port of the page (8765). Arguments go to "quoin up":
 #   deploy/quickstart.sh --duration 20 --json
 set -eu
 
@@ -20,7 +20,8 @@ build=$root/build
     (cd "$root" && cmake --preset release -DQUOIN_TESTS=OFF -DQUOIN_BENCHMARKS=OFF)
   fi
   cmake --build "$build" --target quoin quoin-simulated quoin-replay quoin-segmentation \
-    quoin-line-fitting quoin-corner-estimation
+    quoin-line-fitting quoin-circle-fitting quoin-corner-estimation quoin-viewer
+  printf '\nOpen http://127.0.0.1:%s/ in a browser to look at it.\n\n' "${QUOIN_PORT:-8765}"
 } >&2
 
-exec "$build/bin/quoin" up "$root/deploy/examples/side_by_side.yaml" "$@"
+exec "$build/bin/quoin" up "$root/deploy/examples/look.yaml" "$@"

@@ -44,5 +44,6 @@ struct Command {
 [[nodiscard]] Command add_doctor(CLI::App& app);
 [[nodiscard]] Command add_keys(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
+[[nodiscard]] Command add_view(CLI::App& app);
 
 }  // namespace quoin::deploy

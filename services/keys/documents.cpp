@@ -93,6 +93,7 @@ TopicRule rule_of(const Deployment& deployment, const std::string& identity) {
   std::set<std::string> reads;
   const Graph graph(deployment);
   for (const ServiceConfig* service : process->services) {
+    if (service->info != nullptr && service->info->observer) reads.insert(status);
     for (const OutputConfig& output : service->outputs) rule.writes.push_back(output.topic);
     for (const Connection& input : graph.inputs_of(*service)) reads.insert(input.output.topic);
   }

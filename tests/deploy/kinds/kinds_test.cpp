@@ -23,9 +23,9 @@ std::vector<std::string> names_of(const std::vector<MethodInfo>& methods) {
 TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
   for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
-  EXPECT_THAT(names,
-              ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "segmentation",
-                          "line_fitting", "corner_estimation", "circle_fitting", "external"));
+  EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "ros2_scan",
+                                 "segmentation", "line_fitting", "corner_estimation",
+                                 "circle_fitting", "viewer", "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,7 +28,10 @@ TEST_P(Examples, AreValidAndEndInCornersOrCircles) {
   const Deployment deployment = deploy::load_deployment(GetParam());
   ASSERT_FALSE(deployment.services.empty());
   EXPECT_TRUE(deployment.services.front().inputs.empty());
-  EXPECT_NE(deployment.services.back().output("corners"), nullptr);
+  // Observers stand behind all others.
+  const auto last = std::find_if(deployment.services.rbegin(), deployment.services.rend(),
+                                 [](const auto& each) { return !each.info->observer; });
+  EXPECT_NE(last->output("corners"), nullptr);
   for (const Connection& end : Graph(deployment).ends()) {
     EXPECT_TRUE(end.type == "corners" || end.type == "circles")
         << end.writer->name << " is read by nobody";

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#include "services/viewer/live_view.hpp"
+
+#include <chrono>
+#include <functional>
+#include <utility>
+
+#include "services/topics/topic_types.hpp"
+
+namespace quoin::viewer {
+
+namespace {
+
+/// [ns since the Unix epoch]
+std::int64_t system_now() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+/// Messages as they are sent (CDR) with their IDL.
+Channel cdr_channel(const std::string& topic, std::string_view dds_type, std::string_view idl) {
+  return {0, topic, "cdr", std::string(dds_type), "omgidl", std::string(topics::idl_text(idl))};
+}
+
+}  // namespace
+
+LiveView::LiveView(const std::string& name, const ViewerParameters& parameters,
+                   const std::filesystem::path& base, Server::Log log)
+    : hub_(name),
+      heartbeats_(hub_.add_channel(
+          cdr_channel(status_topic(name), "quoin::msg::ServiceStatus", "Status.idl"))),
+      views_(hub_),
+      server_(server_settings(parameters, base), hub_, std::move(log)) {
+  hub_.limit(static_cast<std::size_t>(parameters.clients), client_limits(parameters));
+}
+
+std::uint32_t LiveView::channel_of(const std::string& topic, const std::string& type) {
+  const auto found = channels_.find(topic);
+  if (found != channels_.end()) return found->second;
+  const topics::TopicType& row = *topics::find_topic_type(type);
+  const std::uint32_t id = hub_.add_channel(cdr_channel(topic, row.dds_type, row.idl));
+  channels_.emplace(topic, id);
+  views_.add(topic, type);
+  return id;
+}
+
+void LiveView::publish(const std::string& topic, const std::string& type,
+                       std::shared_ptr<const void> owner, const topics::RawMessage& raw,
+                       const msg::Header& header) {
+  hub_.publish(channel_of(topic, type), {std::move(owner), raw.cdr, system_now()});
+  views_.publish(topic, raw.cdr, header.frame(), header.stamp());
+}
+
+void LiveView::publish(const msg::ServiceStatus& heartbeat) {
+  const auto raw = std::make_shared<topics::RawMessage>();
+  topics::encode(heartbeat, *raw);
+  hub_.publish(heartbeats_, {raw, raw->cdr, system_now()},
+               std::hash<std::string>{}(heartbeat.service()));
+}
+
+}  // namespace quoin::viewer
