@@ -5,18 +5,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace quoin::sensor_bridge {
+#include "sensor_bridge/recordings/scan_file_error.hpp"
 
-/// A scan file that cannot be read (any further): "file:line:column: what; what to do".
-class ScanFileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace quoin::sensor_bridge {
 
 /// Lines of a text file, plain or gzip compressed, one after the other; never the whole file in
 /// memory.
