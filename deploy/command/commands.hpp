@@ -38,6 +38,7 @@ struct Command {
 [[nodiscard]] Command add_evaluate(CLI::App& app);
 [[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
+[[nodiscard]] Command add_record(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
 [[nodiscard]] Command add_set(CLI::App& app);
 [[nodiscard]] Command add_discovery(CLI::App& app);
