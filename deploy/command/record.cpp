@@ -14,7 +14,7 @@
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
 #include "deploy/orchestration/signals.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/recorder/recorder.hpp"
 #include "services/runtime/dds/endpoints.hpp"

@@ -16,8 +16,8 @@
 #include "deploy/recordings/contents.hpp"
 #include "deploy/recordings/copy.hpp"
 #include "deploy/recordings/message_table.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "services/topics/cdr_json.hpp"
 
 namespace quoin::deploy {

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
 
 namespace quoin::deploy {
 

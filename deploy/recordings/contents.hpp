@@ -11,7 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sensor_bridge/recordings/message_file.hpp"
+#include "sensor_bridge/message_files/message_file.hpp"
 
 namespace quoin::deploy {
 

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <tuple>
 
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 
 namespace quoin::deploy {
 

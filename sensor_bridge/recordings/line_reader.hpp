@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sensor_bridge/recordings/scan_file_error.hpp"
+#include "sensor_bridge/message_files/scan_file_error.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/parameters/parameter.hpp"
-#include "sensor_bridge/recordings/compression.hpp"
+#include "sensor_bridge/message_files/compression.hpp"
 
 namespace quoin {
 

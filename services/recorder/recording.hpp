@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "services/recorder/parameters.hpp"
 #include "services/topics/protobuf/message_encoder.hpp"
 #include "services/topics/protobuf/views.hpp"

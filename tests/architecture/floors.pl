@@ -20,6 +20,7 @@ my @floors = (
     [ 'sensor_bridge/transport/',        1 ],
     [ 'sensor_bridge/rplidar/protocol/', 1 ],
     [ 'sensor_bridge/rplidar/driver/',   2 ],
+    [ 'sensor_bridge/message_files/',    2 ],
     [ 'sensor_bridge/simulated/world_file', 2 ],
     [ 'services/topics/',                3 ],
     [ 'sensor_bridge/recordings/',       4 ],

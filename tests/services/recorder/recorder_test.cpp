@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
 #include "services/topics/header.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +13,7 @@
 
 #include <zlib.h>
 
-#include "sensor_bridge/recordings/mcap/record_codec.hpp"
+#include "sensor_bridge/message_files/mcap_codec.hpp"
 
 namespace quoin::sensor_bridge::mcap {
 

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "sensor_bridge/recordings/mcap/records.hpp"
+#include "sensor_bridge/message_files/mcap_records.hpp"
 
 namespace quoin::sensor_bridge::mcap {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 // The records of an MCAP file (https://mcap.dev/spec), one structure each: its number, and its
-// fields in the order in which they are written. record_codec.hpp reads and writes them by that.
+// fields in the order in which they are written. mcap_codec.hpp reads and writes them by that.
 namespace quoin::sensor_bridge::mcap {
 
 inline constexpr std::string_view magic{"\x89MCAP0\r\n", 8};

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "sensor_bridge/recordings/binary_file.hpp"
-#include "sensor_bridge/recordings/message_file.hpp"
+#include "sensor_bridge/message_files/binary_file.hpp"
+#include "sensor_bridge/message_files/message_file.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/binary_file.hpp"
+#include "sensor_bridge/message_files/binary_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

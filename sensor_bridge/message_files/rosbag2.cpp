@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/rosbag2.hpp"
+#include "sensor_bridge/message_files/rosbag2.hpp"
 
 #include <sqlite3.h>
 
-#include "sensor_bridge/recordings/compression.hpp"
+#include "sensor_bridge/message_files/compression.hpp"
 
 namespace quoin::sensor_bridge {
 

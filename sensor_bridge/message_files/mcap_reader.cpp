@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
 
 #include <algorithm>
 
 #include <zlib.h>
 
 #include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/recordings/compression.hpp"
-#include "sensor_bridge/recordings/mcap/record_codec.hpp"
+#include "sensor_bridge/message_files/compression.hpp"
+#include "sensor_bridge/message_files/mcap_codec.hpp"
 
 namespace quoin::sensor_bridge::mcap {
 

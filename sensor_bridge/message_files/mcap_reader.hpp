@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sensor_bridge/recordings/binary_file.hpp"
-#include "sensor_bridge/recordings/mcap/records.hpp"
+#include "sensor_bridge/message_files/binary_file.hpp"
+#include "sensor_bridge/message_files/mcap_records.hpp"
 
 namespace quoin::sensor_bridge::mcap {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "sensor_bridge/recordings/message_file.hpp"
+#include "sensor_bridge/message_files/message_file.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;

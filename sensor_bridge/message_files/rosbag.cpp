@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/rosbag.hpp"
+#include "sensor_bridge/message_files/rosbag.hpp"
 
 #include <cstring>
 #include <limits>
 #include <optional>
 
 #include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/recordings/compression.hpp"
+#include "sensor_bridge/message_files/compression.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_bridge/recordings/message_file.hpp"
+#include "sensor_bridge/message_files/message_file.hpp"
 
-#include "sensor_bridge/recordings/binary_file.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
-#include "sensor_bridge/recordings/rosbag.hpp"
-#include "sensor_bridge/recordings/rosbag2.hpp"
+#include "sensor_bridge/message_files/binary_file.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "sensor_bridge/message_files/rosbag.hpp"
+#include "sensor_bridge/message_files/rosbag2.hpp"
 
 namespace quoin::sensor_bridge {
 

@@ -12,9 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensor_bridge/recordings/mcap/mcap_reader.hpp"
-#include "sensor_bridge/recordings/mcap/mcap_writer.hpp"
-#include "sensor_bridge/recordings/mcap/record_codec.hpp"
+#include "sensor_bridge/message_files/mcap_codec.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge::mcap {
