@@ -18,7 +18,9 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
-constexpr double huber = 2.5;                // standard deviations, of two dimensions together
+constexpr double huber = 2.5;         // standard deviations, of two dimensions together
+constexpr double motion_scale = 3.4;  // the same of an edge, three dimensions
+constexpr double loop_scale = 3.4;
 constexpr double origin_information = 1e10;  // of the first pose
 
 /// Normal equations, their lower triangle as triplets.
@@ -36,14 +38,23 @@ struct Equations {
   }
 };
 
+/// Expected by the poses less the motion of the edge.
+Eigen::Vector3d edge_error(const LandmarkGraph::Edge& edge, const Pose2& from, const Pose2& to) {
+  const Pose2 expected = between(from, to);
+  const Pose2& motion = edge.motion.pose;
+  return {expected.x - motion.x, expected.y - motion.y,
+          normalized_angle(expected.theta - motion.theta)};
+}
+
 }  // namespace
 
-std::size_t LandmarkGraph::add_keyframe(const Pose2& pose, const PoseEstimate& motion) {
+std::size_t LandmarkGraph::add_keyframe(std::size_t from, const Pose2& pose,
+                                        const PoseEstimate& motion) {
   keyframes_.push_back({pose, {}});
-  motions_.push_back(motion);
-  motion_information_.push_back(keyframes_.size() == 1
-                                    ? Eigen::Matrix3d::Zero()
-                                    : Eigen::Matrix3d(motion.covariance.inverse()));
+  if (keyframes_.size() > 1) {
+    const std::size_t last = keyframes_.size() - 1;
+    edges_.push_back({from, last, motion, motion.covariance.inverse(), false});
+  }
   return keyframes_.size() - 1;
 }
 
@@ -54,7 +65,7 @@ std::size_t LandmarkGraph::add_landmark(const LineLandmark& landmark) {
 
 void LandmarkGraph::observe(std::size_t keyframe, std::size_t landmark,
                             const LineMeasurement& measurement) {
-  keyframes_[keyframe].observations.push_back({landmark, measurement});
+  keyframes_[keyframe].observations.push_back({landmark, measurement, landmark});
   LineLandmark& seen = landmarks_[landmark];
   if (seen.observations == 0) seen.first_keyframe = keyframe;
   seen.last_keyframe = keyframe;
@@ -64,6 +75,7 @@ void LandmarkGraph::observe(std::size_t keyframe, std::size_t landmark,
 void LandmarkGraph::merge(std::size_t kept, std::size_t dropped) {
   LineLandmark& to = landmarks_[kept];
   LineLandmark& from = landmarks_[dropped];
+  merges_.push_back({kept, dropped, keyframes_.size(), to, from});
   for (const double end : {from.low, from.high}) {
     const double s = to.along().dot(from.at(end) - to.anchor);
     to.low = std::min(to.low, s);
@@ -80,7 +92,43 @@ void LandmarkGraph::merge(std::size_t kept, std::size_t dropped) {
   }
 }
 
-double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covariance) {
+void LandmarkGraph::close_loop(std::size_t from, std::size_t to, const PoseEstimate& relative) {
+  edges_.push_back({from, to, relative, relative.covariance.inverse(), true});
+}
+
+double LandmarkGraph::chi_square(const Edge& edge) const {
+  const Eigen::Vector3d error =
+      edge_error(edge, keyframes_[edge.from].pose, keyframes_[edge.to].pose);
+  return error.dot(edge.information * error);
+}
+
+void LandmarkGraph::drop_loop(std::size_t edge) {
+  const std::size_t since = edges_[edge].to;
+  edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(edge));
+  while (!merges_.empty() && merges_.back().keyframes > since) {
+    const Merge& merge = merges_.back();
+    // Where both are now; how far they reach and what sees them, as before.
+    LineLandmark& kept = landmarks_[merge.kept];
+    LineLandmark& dropped = landmarks_[merge.dropped];
+    kept.low = merge.kept_before.low;
+    kept.high = merge.kept_before.high;
+    dropped = merge.dropped_before;
+    dropped.observations = 0;
+    for (std::size_t k = 0; k < keyframes_.size(); ++k) {
+      for (Observation& observation : keyframes_[k].observations) {
+        if (observation.landmark != merge.kept || observation.made_as != merge.dropped) continue;
+        observation.landmark = merge.dropped;
+        --kept.observations;
+        ++dropped.observations;
+        dropped.last_keyframe = k;
+      }
+    }
+    merges_.pop_back();
+  }
+}
+
+double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covariance,
+                           std::vector<int>& order_of_elimination) {
   const int poses = static_cast<int>(keyframes_.size());
   const int size = 3 * poses + 2 * static_cast<int>(landmarks_.size());
   Equations equations;
@@ -88,31 +136,37 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
   equations.triplets.reserve(64 * keyframes_.size());
   double cost = 0.0;
   equations.add(0, 0, Eigen::Matrix3d(origin_information * Eigen::Matrix3d::Identity()));
+  for (const Edge& edge : edges_) {
+    const Pose2& before = keyframes_[edge.from].pose;
+    const Eigen::Vector3d error = edge_error(edge, before, keyframes_[edge.to].pose);
+    const double c = std::cos(before.theta);
+    const double s = std::sin(before.theta);
+    const Pose2 expected = between(before, keyframes_[edge.to].pose);
+    Eigen::Matrix3d by_before, by_pose;
+    by_before << -c, -s, expected.y, s, -c, -expected.x, 0.0, 0.0, -1.0;
+    by_pose << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+    Eigen::Matrix3d information = edge.information;
+    const double squared = error.dot(information * error);
+    const double scale = edge.closes_loop ? loop_scale : motion_scale;
+    if (squared > scale * scale) {
+      const double deviations = std::sqrt(squared);
+      information *= scale / deviations;
+      cost += scale * (deviations - 0.5 * scale);
+    } else {
+      cost += 0.5 * squared;
+    }
+    const Eigen::Matrix3d weighted_before = by_before.transpose() * information;
+    const Eigen::Matrix3d weighted_pose = by_pose.transpose() * information;
+    const int earlier = 3 * static_cast<int>(edge.from);
+    const int own = 3 * static_cast<int>(edge.to);
+    equations.add(earlier, earlier, Eigen::Matrix3d(weighted_before * by_before));
+    equations.add(own, earlier, Eigen::Matrix3d(weighted_pose * by_before));
+    equations.add(own, own, Eigen::Matrix3d(weighted_pose * by_pose));
+    equations.gradient.segment<3>(earlier) += weighted_before * error;
+    equations.gradient.segment<3>(own) += weighted_pose * error;
+  }
   for (int k = 0; k < poses; ++k) {
     const Keyframe& keyframe = keyframes_[static_cast<std::size_t>(k)];
-    if (k > 0) {
-      const Pose2& before = keyframes_[static_cast<std::size_t>(k) - 1].pose;
-      const Pose2 expected = between(before, keyframe.pose);
-      const Pose2& motion = motions_[static_cast<std::size_t>(k)].pose;
-      const Eigen::Vector3d error(expected.x - motion.x, expected.y - motion.y,
-                                  normalized_angle(expected.theta - motion.theta));
-      const double c = std::cos(before.theta);
-      const double s = std::sin(before.theta);
-      Eigen::Matrix3d by_before, by_pose;
-      by_before << -c, -s, expected.y, s, -c, -expected.x, 0.0, 0.0, -1.0;
-      by_pose << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-      const Eigen::Matrix3d& information = motion_information_[static_cast<std::size_t>(k)];
-      cost += 0.5 * error.dot(information * error);
-      const Eigen::Matrix3d weighted_before = by_before.transpose() * information;
-      const Eigen::Matrix3d weighted_pose = by_pose.transpose() * information;
-      const int earlier = 3 * (k - 1);
-      const int own = 3 * k;
-      equations.add(earlier, earlier, Eigen::Matrix3d(weighted_before * by_before));
-      equations.add(own, earlier, Eigen::Matrix3d(weighted_pose * by_before));
-      equations.add(own, own, Eigen::Matrix3d(weighted_pose * by_pose));
-      equations.gradient.segment<3>(earlier) += weighted_before * error;
-      equations.gradient.segment<3>(own) += weighted_pose * error;
-    }
     for (const Observation& observation : keyframe.observations) {
       const LineResidual residual =
           line_residual(keyframe.pose, landmarks_[observation.landmark], observation.measurement);
@@ -146,18 +200,23 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
 
   // Minimum degree, but for the variables whose joint covariance is wanted: what is eliminated last
   // has it in the last block of the factor.
-  Permutation order;
-  Sparse full = lower.selfadjointView<Eigen::Lower>();
-  Eigen::AMDOrdering<int>()(full, order);
-  std::vector<char> is_last(static_cast<std::size_t>(size), 0);
-  for (const int variable : last) is_last[static_cast<std::size_t>(variable)] = 1;
   Permutation inverse(size);  // from the place of a variable to its place in the order
-  int next = 0;
-  for (int i = 0; i < size; ++i) {
-    const int variable = order.indices()(i);
-    if (is_last[static_cast<std::size_t>(variable)] == 0) inverse.indices()(variable) = next++;
+  if (order_of_elimination.empty()) {
+    Permutation order;
+    const Sparse full = lower.selfadjointView<Eigen::Lower>();
+    Eigen::AMDOrdering<int>()(full, order);
+    std::vector<char> is_last(static_cast<std::size_t>(size), 0);
+    for (const int variable : last) is_last[static_cast<std::size_t>(variable)] = 1;
+    int next = 0;
+    for (int i = 0; i < size; ++i) {
+      const int variable = order.indices()(i);
+      if (is_last[static_cast<std::size_t>(variable)] == 0) inverse.indices()(variable) = next++;
+    }
+    for (const int variable : last) inverse.indices()(variable) = next++;
+    order_of_elimination.assign(inverse.indices().data(), inverse.indices().data() + size);
+  } else {
+    std::copy(order_of_elimination.begin(), order_of_elimination.end(), inverse.indices().data());
   }
-  for (const int variable : last) inverse.indices()(variable) = next++;
   Sparse ordered(size, size);
   ordered.selfadjointView<Eigen::Lower>() =
       lower.selfadjointView<Eigen::Lower>().twistedBy(inverse);
@@ -191,7 +250,8 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
 
 double LandmarkGraph::optimize(int steps) {
   double cost = 0.0;
-  for (int i = 0; i < steps; ++i) cost = step({}, nullptr);
+  std::vector<int> order;
+  for (int i = 0; i < steps; ++i) cost = step({}, nullptr, order);
   return cost;
 }
 
@@ -205,7 +265,8 @@ Eigen::MatrixXd LandmarkGraph::marginal_after_step(std::size_t keyframe,
     last.push_back(at + 1);
   }
   Eigen::MatrixXd covariance;
-  step(last, &covariance);
+  std::vector<int> order;
+  step(last, &covariance, order);
   return covariance;
 }
 

@@ -23,10 +23,11 @@ class LandmarkGraph {
   struct Observation {
     std::size_t landmark = 0;
     LineMeasurement measurement;
+    std::size_t made_as = 0;  ///< the landmark before merges
 
     template <class Archive, class Self>
     static void transfer(Archive& archive, Self& self) {
-      archive(self.landmark, self.measurement);
+      archive(self.landmark, self.measurement, self.made_as);
     }
   };
   struct Keyframe {
@@ -39,10 +40,31 @@ class LandmarkGraph {
     }
   };
 
-  /// Adds a keyframe; `motion`, from the keyframe before, is not looked at for the first.
-  std::size_t add_keyframe(const Pose2& pose, const PoseEstimate& motion);
+  /// A pose of keyframe `to` in the frame of keyframe `from` by other means than walls.
+  struct Edge {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    PoseEstimate motion;
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    bool closes_loop = false;
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+      archive(self.from, self.to, self.motion, self.information, self.closes_loop);
+    }
+  };
+
+  /// Adds a keyframe; `motion`, from the keyframe `from`, is not looked at for the first.
+  std::size_t add_keyframe(std::size_t from, const Pose2& pose, const PoseEstimate& motion);
   std::size_t add_landmark(const LineLandmark& landmark);
   void observe(std::size_t keyframe, std::size_t landmark, const LineMeasurement& measurement);
+
+  /// Adds what closes a loop, until `drop_loop` takes it out.
+  void close_loop(std::size_t from, std::size_t to, const PoseEstimate& relative);
+  /// Chi square (of 3) of an edge where the poses are.
+  [[nodiscard]] double chi_square(const Edge& edge) const;
+  /// Takes an edge out, and undoes the merges made since its keyframe `to` was the last one.
+  void drop_loop(std::size_t edge);
 
   /// Lets `kept` stand for `dropped`, with its observations and its extent.
   void merge(std::size_t kept, std::size_t dropped);
@@ -57,22 +79,35 @@ class LandmarkGraph {
                                                     std::span<const std::size_t> landmarks);
 
   [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
   [[nodiscard]] const std::vector<LineLandmark>& landmarks() const { return landmarks_; }
   [[nodiscard]] std::vector<LineLandmark>& landmarks() { return landmarks_; }
 
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
-    archive(self.keyframes_, self.motions_, self.motion_information_, self.landmarks_);
+    archive(self.keyframes_, self.edges_, self.landmarks_, self.merges_);
   }
 
  private:
+  struct Merge {
+    std::size_t kept = 0;
+    std::size_t dropped = 0;
+    std::size_t keyframes = 0;  // when it was made
+    LineLandmark kept_before, dropped_before;
+
+    template <class Archive, class Self>
+    static void transfer(Archive& archive, Self& self) {
+      archive(self.kept, self.dropped, self.keyframes, self.kept_before, self.dropped_before);
+    }
+  };
+
   /// One step with these variables last in the order of elimination; returns the cost before it.
-  double step(std::span<const int> last, Eigen::MatrixXd* covariance);
+  double step(std::span<const int> last, Eigen::MatrixXd* covariance, std::vector<int>& order);
 
   std::vector<Keyframe> keyframes_;
-  std::vector<PoseEstimate> motions_;  // of keyframe i from i - 1
-  std::vector<Eigen::Matrix3d> motion_information_;
+  std::vector<Edge> edges_;
   std::vector<LineLandmark> landmarks_;
+  std::vector<Merge> merges_;
 };
 
 }  // namespace quoin

@@ -32,7 +32,10 @@ constexpr double weak_position = 0.25;       // [m] by the walls alone
 constexpr std::size_t refresh_keyframes = 12;
 constexpr double refresh_distance = 4.0;  // [m]
 constexpr std::size_t most_active = 120;
-constexpr std::size_t recent_keyframes = 12;
+constexpr double least_share = 0.4;  // of the points of a scan that lie on the map around
+constexpr double loop_reach = 12.0;  // [m] of the points that loops are found by
+const Eigen::Matrix3d unknown_place = Eigen::Vector3d(0.25, 0.25, 0.1).asDiagonal();
+constexpr double loop_gate = 30.0;
 
 SidedSegment sided(const LineMeasurement& m) { return {m.alpha, m.middle, m.half_length}; }
 SidedSegment sided(const LineLandmark& l) {
@@ -90,6 +93,15 @@ PoseEstimate compose_correlated(const PoseEstimate& first, const PoseEstimate& i
   return {compose(first.pose, increment.pose), (1.0 + s) * a + (1.0 + 1.0 / s) * b};
 }
 
+/// A covariance of a pose in the map, in the frame of another pose.
+Eigen::Matrix3d in_frame_of(const Pose2& frame, const Eigen::Matrix3d& covariance) {
+  const double c = std::cos(frame.theta);
+  const double s = std::sin(frame.theta);
+  Eigen::Matrix3d turn;
+  turn << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+  return turn * covariance * turn.transpose();
+}
+
 }  // namespace
 
 LineLandmark Landmarks::wall(const Belief& belief, std::size_t place) const {
@@ -99,10 +111,10 @@ LineLandmark Landmarks::wall(const Belief& belief, std::size_t place) const {
   return result;
 }
 
-Landmarks::Belief Landmarks::predict(const Eigen::Matrix3d& motion_covariance) const {
+Landmarks::Belief Landmarks::predict(const PoseEstimate& motion) const {
   Belief prior = belief_;
-  prior.pose = compose(belief_.pose, since_.pose);
-  const Eigen::Matrix3d by_first = compose_by_first(belief_.pose, since_.pose);
+  prior.pose = compose(belief_.pose, motion.pose);
+  const Eigen::Matrix3d by_first = compose_by_first(belief_.pose, motion.pose);
   const Eigen::Matrix3d by_second = compose_by_second(belief_.pose);
   prior.covariance.topRows<3>() = by_first * belief_.covariance.topRows<3>();
   prior.covariance.leftCols<3>() = prior.covariance.leftCols<3>() * by_first.transpose();
@@ -110,7 +122,7 @@ Landmarks::Belief Landmarks::predict(const Eigen::Matrix3d& motion_covariance) c
       prior.covariance.topRows<3>().rightCols(prior.covariance.cols() - 3).transpose();
   prior.covariance.topLeftCorner<3, 3>() =
       by_first * belief_.covariance.topLeftCorner<3, 3>() * by_first.transpose() +
-      by_second * motion_covariance * by_second.transpose();
+      by_second * motion.covariance * by_second.transpose();
   return prior;
 }
 
@@ -326,7 +338,7 @@ Landmarks::Pairs Landmarks::find_pairs(const Belief& prior, double& weakening) c
   weakening = 1.0;
   const auto improve = [&](Pairs found, double weaker) {
     Belief posterior;
-    const Belief from = weaker > 1.0 ? predict(weaker * search_covariance_) : prior;
+    const Belief from = weaker > 1.0 ? predict({motion_.pose, weaker * search_covariance_}) : prior;
     if (found.empty() || !update(from, found, posterior)) return;
     Pairs again = associate(posterior, widest_direction, widest_offset);
     if (length_of(again) > length_of(found)) found = std::move(again);
@@ -365,35 +377,214 @@ void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization&
     const Eigen::Vector2d direction = axes.eigenvectors().col(0);
     result.weak_direction = direction_of(direction.x(), direction.y());
   }
-  const double refuted = seen_through(posterior.pose);
-  const bool contradicted =
-      matched < 0.5 * total && refuted > std::max({matched, 0.4 * total, least_refuted});
+  const bool lies_well = share_ > 0.6;
+  const double refuted = lies_well ? 0.0 : seen_through(posterior.pose);
+  const bool contradicted = share_ < least_share && matched < 0.5 * total &&
+                            refuted > std::max({matched, 0.4 * total, least_refuted});
   // Neighbouring scans see the same walls.
   const Pose2 step = between(last_pose_, posterior.pose);
-  const bool jumped = matched < 0.2 * total && measurements_.size() > 1 &&
+  const bool jumped = share_ < least_share && matched < 0.2 * total && scan_.size() > 20 &&
                       std::hypot(step.x, step.y) < short_step && std::abs(step.theta) < short_turn;
-  fits_ = !contradicted && !jumped && (has_odometry_ || !pairs.empty() || measurements_.size() < 2);
+  fits_ = !contradicted && !jumped && (has_odometry_ || share_ > 0.0 || !pairs.empty());
   if (lost_) {
     result.status = LocalizationStatus::lost;
-  } else if (!fits_ || weak || matched < 0.5 * total || refuted > matched) {
+  } else if (!fits_ || weak || (matched < 0.5 * total && !lies_well) || refuted > matched) {
     result.status = LocalizationStatus::ambiguous;
   } else {
     result.status = LocalizationStatus::tracking;
   }
 }
 
-void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
-  if (!given_.empty()) {
-    // Nothing is mapped: the filter goes on from here, and from time to time with other walls.
-    belief_ = posterior;
-    since_ = PoseEstimate{};
-    const double driven =
-        std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y);
-    if (driven > refresh_distance) refresh();
+/// Points of the scan; where there are none, points of its lines.
+void Landmarks::collect_points(const LocalizationInput& input) {
+  if (!input.points.empty()) {
+    surface_points(input.points, 0.05, 2.0 * parameters_.reach, scan_);
     return;
   }
-  const std::size_t keyframe = graph_.add_keyframe(posterior.pose, since_);
+  scan_.clear();
+  for (const LineMeasurement& m : measurements_) {
+    const Eigen::Vector2d normal(std::cos(m.alpha), std::sin(m.alpha));
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    const int count = std::max(2, static_cast<int>(2.0 * m.half_length / 0.1));
+    for (int i = 0; i < count; ++i) {
+      const double t = m.half_length * (2.0 * (i + 0.5) / count - 1.0);
+      SurfacePoint point;
+      point.position = (m.middle + t * along).cast<float>();
+      point.normal = (-normal).cast<float>();
+      scan_.push_back(point);
+    }
+  }
+}
+
+/// The points around, of keyframes that see the same walls as the last ones, and of the last ones.
+void Landmarks::rebuild_near() {
+  constexpr std::size_t last = 15;
+  constexpr std::size_t most = 40;
+  const auto& keyframes = graph_.keyframes();
+  near_.clear({belief_.pose.x, belief_.pose.y}, parameters_.reach + 8.0);
+  if (!given_.empty()) {
+    for (const std::size_t index : active_) {
+      const LineLandmark& landmark = graph_.landmarks()[index];
+      const int steps = std::max(2, static_cast<int>(landmark.length() / 0.05));
+      std::vector<SurfacePoint> points(static_cast<std::size_t>(steps));
+      for (int i = 0; i < steps; ++i) {
+        SurfacePoint& point = points[static_cast<std::size_t>(i)];
+        const double s = landmark.low + (i + 0.5) / steps * landmark.length();
+        point.position = landmark.at(s).cast<float>();
+        point.normal = (-landmark.normal()).cast<float>();
+      }
+      near_.add({}, points);
+    }
+    return;
+  }
+  std::vector<char> seen(graph_.landmarks().size(), 0);
+  const std::size_t count = keyframes.size();
+  const std::size_t end = std::min(count, base_keyframe_ + 3);
+  for (std::size_t k = end > 6 ? end - 6 : 0; k < end; ++k) {
+    for (const auto& observation : keyframes[k].observations) seen[observation.landmark] = 1;
+  }
+  std::vector<std::pair<double, std::size_t>> chosen;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double distance =
+        std::hypot(keyframes[k].pose.x - belief_.pose.x, keyframes[k].pose.y - belief_.pose.y);
+    std::size_t common = 0;
+    for (const auto& observation : keyframes[k].observations) {
+      common += seen[observation.landmark] != 0 ? 1 : 0;
+    }
+    if (k < end && k + last >= end) {
+      chosen.emplace_back(-1.0, k);
+    } else if (distance < parameters_.reach && common >= 3) {
+      chosen.emplace_back(distance, k);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  if (chosen.size() > most) chosen.resize(most);
+  std::sort(chosen.begin(), chosen.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const auto& [distance, k] : chosen) near_.add(keyframes[k].pose, clouds_[k]);
+}
+
+std::optional<Registration> Landmarks::register_scan(const Pose2& predicted,
+                                                     const PoseWindow& window) {
+  if (near_.empty() || scan_.size() < 10) return std::nullopt;
+  PoseEstimate prior{predicted, Eigen::Matrix3d::Zero()};
+  const double position = 0.5 * window.translation;
+  const double heading = 0.5 * window.turn;
+  prior.covariance.diagonal() << position * position, position * position, heading * heading;
+  std::optional<Registration> best;
+  double best_value = 0.0;
+  const auto consider = [&](const Pose2& start) {
+    const Registration tried = near_.refine(scan_, start, prior);
+    const Pose2 off = between(predicted, tried.estimate.pose);
+    const double squared = (off.x * off.x + off.y * off.y) / (position * position) +
+                           off.theta * off.theta / (heading * heading);
+    const double value = tried.share - 0.02 * std::min(squared, 10.0);
+    if (best && value <= best_value) return;
+    best_value = value;
+    best = tried;
+  };
+  consider(predicted);
+  for (const PointMap::Candidate& candidate : near_.search(scan_, window, 3)) {
+    consider(candidate.pose);
+  }
+  if (best->share < least_share) return std::nullopt;
+  return best;
+}
+
+/// Compares odometry with what the points say of the same step.
+void Landmarks::judge_odometry(const PoseEstimate& motion, const Registration& registration) {
+  if (!registered_) return;
+  const Pose2 step = between(*registered_, registration.estimate.pose);
+  const Eigen::Vector3d off(step.x - motion.pose.x, step.y - motion.pose.y,
+                            normalized_angle(step.theta - motion.pose.theta));
+  const Eigen::Matrix3d& noise = registration.estimate.covariance;
+  const double position =
+      motion.covariance(0, 0) + motion.covariance(1, 1) + 2.0 * (noise(0, 0) + noise(1, 1));
+  const double heading = motion.covariance(2, 2) + 2.0 * noise(2, 2);
+  const Eigen::Vector2d ratio(off.head<2>().squaredNorm() / position, off.z() * off.z() / heading);
+  judged_motions_ = std::min<std::size_t>(judged_motions_ + 1, 50);
+  const double weight = 1.0 / (5.0 + static_cast<double>(judged_motions_));
+  for (int i = 0; i < 2; ++i) {
+    odometry_scale_(i) += weight * (std::min(ratio(i), 100.0) - odometry_scale_(i));
+    odometry_scale_(i) = std::max(odometry_scale_(i), 1.0);
+  }
+}
+
+/// The motion since the last keyframe by odometry and by the points together.
+void Landmarks::fuse(const Registration& registration) {
+  const Pose2 seen = between(belief_.pose, registration.estimate.pose);
+  const Eigen::Matrix3d noise = in_frame_of(belief_.pose, registration.estimate.covariance);
+  const Eigen::Vector3d off(seen.x - since_.pose.x, seen.y - since_.pose.y,
+                            normalized_angle(seen.theta - since_.pose.theta));
+  const double squared = off.dot((noise + since_.covariance).ldlt().solve(off));
+  // Odometry that the points refute counts less: slip lasts longer than its covariance says.
+  if (squared > 3.0) since_.covariance *= squared / 3.0;
+  const Eigen::Matrix3d gain = since_.covariance * (since_.covariance + noise).inverse();
+  const Eigen::Vector3d change = gain * off;
+  motion_.pose = moved(since_.pose, change);
+  motion_.covariance = since_.covariance - gain * since_.covariance;
+  motion_.covariance = (0.5 * (motion_.covariance + motion_.covariance.transpose())).eval();
+  search_covariance_ = motion_.covariance;
+}
+
+/// The keyframe whose pose is nearest, a radian counted as a metre.
+std::size_t Landmarks::nearest_keyframe(const Pose2& pose) const {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < graph_.keyframes().size(); ++k) {
+    const Pose2 apart = between(pose, graph_.keyframes()[k].pose);
+    const double distance = apart.x * apart.x + apart.y * apart.y + apart.theta * apart.theta;
+    if (distance >= least) continue;
+    least = distance;
+    nearest = k;
+  }
+  return nearest;
+}
+
+/// Whether the scan shows nothing that the map does not have from near this pose: another keyframe
+/// would only make the graph grow.
+bool Landmarks::is_known(const Pose2& pose, double matched, double total) const {
+  if (!given_.empty()) return true;
+  if (share_ < 0.8 || matched < 0.9 * total) return false;
+  const Pose2 apart = between(graph_.keyframes()[nearest_keyframe(pose)].pose, pose);
+  return std::hypot(apart.x, apart.y) < parameters_.keyframe_distance &&
+         std::abs(apart.theta) < parameters_.keyframe_angle;
+}
+
+/// The filter goes on from here without a new keyframe, and from time to time with other walls.
+void Landmarks::go_on(const Belief& posterior) {
   belief_ = posterior;
+  since_ = PoseEstimate{};
+  base_is_keyframe_ = false;
+  if (std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y) <
+      refresh_distance) {
+    return;
+  }
+  if (given_.empty()) {
+    // From the nearest keyframe, with what the points say of the way from there.
+    base_keyframe_ = nearest_keyframe(posterior.pose);
+    const Pose2 from = graph_.keyframes()[base_keyframe_].pose;
+    refresh();
+    since_ = {between(from, posterior.pose), in_frame_of(from, scan_covariance_)};
+    base_is_keyframe_ = true;
+  } else {
+    refresh();
+  }
+  rebuild_near();
+}
+
+void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
+  PoseEstimate motion = motion_;
+  if (!base_is_keyframe_) {
+    base_keyframe_ = nearest_keyframe(posterior.pose);
+    const Pose2& from = graph_.keyframes()[base_keyframe_].pose;
+    motion = {between(from, scan_pose_), in_frame_of(from, scan_covariance_)};
+  }
+  const std::size_t keyframe = graph_.add_keyframe(base_keyframe_, posterior.pose, motion);
+  base_keyframe_ = keyframe;
+  base_is_keyframe_ = true;
+  belief_ = posterior;
+  clouds_.push_back(scan_);
   std::vector<char> used(measurements_.size(), 0);
   for (const auto& [i, k] : pairs) {
     used[i] = 1;
@@ -435,17 +626,23 @@ void Landmarks::add_keyframe(const Belief& posterior, const Pairs& pairs) {
     active_.push_back(index);
   }
   since_ = PoseEstimate{};
+  const Eigen::Vector2d here(belief_.pose.x, belief_.pose.y);
+  if (near_.empty() || (here - near_.center()).norm() > 4.0) rebuild_near();
+  near_.add(belief_.pose, scan_);
   const double way = std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y);
-  if (keyframe >= refreshed_keyframe_ + refresh_keyframes || way > refresh_distance) {
+  check_loops();
+  const bool closed = close_loop();
+  if (closed || keyframe >= refreshed_keyframe_ + refresh_keyframes || way > refresh_distance) {
     refresh();
-    if (close_loop()) refresh();
+    if (closed) refresh();
+    rebuild_near();
   }
 }
 
 /// One step of the whole graph, and the filter anew from its joint covariance.
 void Landmarks::refresh() {
-  const std::size_t keyframe = graph_.keyframes().size() - 1;
-  const Pose2 pose = given_.empty() ? graph_.keyframes().back().pose : belief_.pose;
+  const std::size_t keyframe = base_keyframe_;
+  const Pose2 pose = given_.empty() ? graph_.keyframes()[keyframe].pose : belief_.pose;
   std::vector<std::pair<double, std::size_t>> around;
   for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
     const LineLandmark& landmark = graph_.landmarks()[i];
@@ -466,7 +663,7 @@ void Landmarks::refresh() {
     const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active_);
     if (covariance.rows() == 0) return;
     belief_.covariance = covariance;
-    belief_.pose = graph_.keyframes().back().pose;
+    belief_.pose = graph_.keyframes()[keyframe].pose;
   } else {
     const auto size = static_cast<Eigen::Index>(3 + 2 * active_.size());
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
@@ -536,78 +733,124 @@ void Landmarks::merge_same_walls() {
   belief_.walls = std::move(walls);
 }
 
-/// Compares the walls of the last keyframes with those seen long before. Accepted when one
-/// alignment is supported by several walls and no other one is, and when the graph explains what
-/// is merged about as well as before.
-bool Landmarks::close_loop() {
-  const std::size_t keyframe = graph_.keyframes().size() - 1;
-  if (keyframe < last_loop_keyframe_ + 5) return false;
-  std::vector<SidedSegment> recent, old;
-  std::vector<std::size_t> recent_index, old_index;
-  double turn_variance = 0.0, offset_variance = 0.0, total = 0.0;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    const LineLandmark& landmark = graph_.landmarks()[active_[k]];
-    if (landmark.observations < 2) continue;
-    const SidedSegment segment = sided(landmark);
-    if (landmark.first_keyframe + 2 * recent_keyframes > keyframe &&
-        landmark.last_keyframe + recent_keyframes > keyframe) {
-      recent.push_back(segment);
-      recent_index.push_back(active_[k]);
-      total += 2.0 * segment.half_length;
-    } else if (landmark.last_keyframe + 2 * recent_keyframes < keyframe) {
-      old.push_back(segment);
-      old_index.push_back(active_[k]);
-      // Of the wall as the sensor would see it now.
-      const auto at = static_cast<Eigen::Index>(3 + 2 * k);
-      const Eigen::MatrixXd& c = belief_.covariance;
-      turn_variance = std::max(turn_variance, c(2, 2) + c(at, at) - 2.0 * c(2, at));
-      LineMeasurement m;
-      m.middle = belief_.pose.inverse_transform(segment.middle);
-      m.alpha = segment.normal - belief_.pose.theta;
-      const Eigen::Matrix<double, 2, 5> jacobian =
-          jacobian_of(line_residual(belief_.pose, landmark, m));
-      const Eigen::Matrix2d s = jacobian * block_of(c, k) * jacobian.transpose();
-      offset_variance = std::max(offset_variance, s(1, 1));
+/// Points of some keyframes, from the pose of one of them.
+std::vector<SurfacePoint> Landmarks::points_around(std::size_t keyframe, std::size_t first,
+                                                   std::size_t last) const {
+  const auto& keyframes = graph_.keyframes();
+  std::vector<SurfacePoint> points;
+  for (std::size_t k = first; k <= last && k < keyframes.size(); ++k) {
+    const Pose2 relative = between(keyframes[keyframe].pose, keyframes[k].pose);
+    for (const SurfacePoint& point : clouds_[k]) {
+      if (point.position.norm() < loop_reach) points.push_back(transformed(relative, point));
     }
   }
-  if (recent.size() < 4 || old.size() < 4) return false;
-  const Eigen::Vector2d here(belief_.pose.x, belief_.pose.y);
-  for (SidedSegment& segment : recent) segment.middle -= here;
-  for (SidedSegment& segment : old) segment.middle -= here;
-  AlignmentSearch search;
-  search.largest_turn = std::min(0.5, 0.02 + 3.5 * std::sqrt(turn_variance));
-  search.largest_translation = std::min(4.0, 0.1 + 3.5 * std::sqrt(offset_variance));
-  search.offset_tolerance = 0.12;
-  search.angle_tolerance = 0.06;
-  const std::vector<Alignment> found = align(recent, old, search);
-  if (found.empty()) return false;
-  const Alignment& best = found.front();
-  if (best.pairs.size() < 4 || best.support < 3.0 || best.support < 0.4 * total) return false;
-  if (found.size() > 1 && found[1].support > 0.7 * best.support) return false;
-  // Each old wall once or more; walls of both directions.
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const auto& [i, k] : best.pairs) {
-    const Eigen::Vector2d normal(std::cos(old[k].normal), std::sin(old[k].normal));
-    spread += std::min(recent[i].half_length, old[k].half_length) * normal * normal.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-  if (axes.eigenvalues()(0) < 0.5) return false;
+  return points;
+}
 
-  LandmarkGraph tried = graph_;
-  const double before = tried.optimize(2);
-  std::size_t merged = 0;
-  for (const auto& [i, k] : best.pairs) {
-    tried.merge(old_index[k], recent_index[i]);
-    ++merged;
+/// Looks for the last keyframes in the map around keyframes of long before. A loop is closed when
+/// two pairs of keyframes say the same, and the graph can explain it.
+bool Landmarks::close_loop() {
+  const auto& keyframes = graph_.keyframes();
+  const std::size_t now = keyframes.size() - 1;
+  if (now < 30 || now < last_loop_keyframe_ + 2) return false;
+  last_loop_keyframe_ = now;
+  std::vector<char> seen(graph_.landmarks().size(), 0);
+  for (std::size_t k = now - 5; k <= now; ++k) {
+    for (const auto& observation : keyframes[k].observations) seen[observation.landmark] = 1;
   }
-  const double after = tried.optimize(6);
-  last_loop_keyframe_ = keyframe;
-  // Twice the cost is a chi square; of 2 dimensions a merged wall, and the drift that it takes
-  // back, it grows by about 2 a wall. Three times that is refused.
-  if (2.0 * (after - before) > 3.0 * (2.0 * static_cast<double>(merged) + 3.0) * 2.0) return false;
+  // How far the map may have drifted since each keyframe.
+  double way = 0.0, turned = 0.0, best_distance = 1e9, window = 0.0, turn = 0.0;
+  std::size_t old = now;
+  const Pose2& here = keyframes[now].pose;
+  for (std::size_t k = now; k-- > 0;) {
+    const Pose2 step = between(keyframes[k].pose, keyframes[k + 1].pose);
+    way += std::hypot(step.x, step.y);
+    turned += std::abs(step.theta);
+    if (k + 20 > now) continue;
+    const double drift = std::min(4.0, 0.5 + 0.03 * way);
+    const double distance = std::hypot(keyframes[k].pose.x - here.x, keyframes[k].pose.y - here.y);
+    if (distance > drift + 1.0 || distance >= best_distance) continue;
+    std::size_t common = 0;
+    for (const auto& observation : keyframes[k].observations) {
+      common += seen[observation.landmark] != 0 ? 1 : 0;
+    }
+    if (common >= 3) return false;  // closed already
+    best_distance = distance;
+    old = k;
+    window = drift;
+    turn = std::min(0.4, 0.1 + 0.002 * way + 0.002 * turned);
+  }
+  if (old == now) return false;
+  PointMap around;
+  const Pose2& base = keyframes[old].pose;
+  around.clear({base.x, base.y}, loop_reach + 2.0);
+  const std::size_t first = old > 6 ? old - 6 : 0;
+  for (std::size_t k = first; k <= std::min(old + 6, now); ++k)
+    around.add(keyframes[k].pose, clouds_[k]);
+  const std::vector<SurfacePoint> recent = points_around(now, now - 6, now);
+  const std::vector<PointMap::Candidate> found = around.search(recent, {here, window, turn}, 3);
+  if (found.empty()) return false;
+  std::vector<Registration> refined;
+  for (const PointMap::Candidate& candidate : found) {
+    const PoseEstimate prior{candidate.pose, 0.04 * Eigen::Matrix3d::Identity()};
+    refined.push_back(around.refine(recent, candidate.pose, prior));
+  }
+  const auto best = std::max_element(
+      refined.begin(), refined.end(),
+      [](const Registration& a, const Registration& b) { return a.share < b.share; });
+  double second = 0.0;
+  for (const Registration& other : refined) {
+    const Pose2 apart = between(best->estimate.pose, other.estimate.pose);
+    if (std::hypot(apart.x, apart.y) > 0.3 || std::abs(apart.theta) > 0.15) {
+      second = std::max(second, other.share);
+    }
+  }
+  if (best->share < 0.55 || second > 0.85 * best->share) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      Eigen::Matrix2d(best->estimate.covariance.topLeftCorner<2, 2>()));
+  if (axes.eigenvalues()(1) > 0.1 * 0.1) return false;
+  LandmarkGraph::Edge edge;
+  edge.from = old;
+  edge.to = now;
+  edge.motion.pose = between(base, best->estimate.pose);
+  edge.motion.covariance = in_frame_of(base, best->estimate.covariance);
+  std::erase_if(pending_loops_, [&](const auto& pending) { return pending.to + 20 < now; });
+  // Where both pairs put the earlier one of the two new keyframes, seen from the later one.
+  const auto earlier =
+      std::find_if(pending_loops_.begin(), pending_loops_.end(), [&](const auto& pending) {
+        const Pose2 one = compose(keyframes[pending.from].pose, pending.motion.pose);
+        const Pose2 two = compose(base, edge.motion.pose);
+        const Pose2 off = between(between(keyframes[pending.to].pose, here), between(one, two));
+        return std::hypot(off.x, off.y) < 0.3 && std::abs(off.theta) < 0.06;
+      });
+  if (earlier == pending_loops_.end()) {
+    pending_loops_.push_back(edge);
+    return false;
+  }
+  LandmarkGraph tried = graph_;
+  const double before = tried.optimize(1);
+  tried.close_loop(earlier->from, earlier->to, earlier->motion);
+  tried.close_loop(edge.from, edge.to, edge.motion);
+  const double after = tried.optimize(5);
+  const auto& edges = tried.edges();
+  const double chi =
+      std::max(tried.chi_square(edges[edges.size() - 2]), tried.chi_square(edges.back()));
+  if (chi > loop_gate || after - before > 100.0) return false;
   graph_ = std::move(tried);
+  pending_loops_.clear();
   ++closed_loops_;
   return true;
+}
+
+/// Loops that prove wrong, by what came after them, are taken out.
+void Landmarks::check_loops() {
+  for (std::size_t i = graph_.edges().size(); i-- > 0;) {
+    const LandmarkGraph::Edge& edge = graph_.edges()[i];
+    if (edge.closes_loop && graph_.chi_square(edge) > 2.0 * loop_gate) {
+      graph_.drop_loop(i);
+      --closed_loops_;
+    }
+  }
 }
 
 /// Where the scan fits all of the map, if only one pose does. Two scans in a row have to agree.
@@ -636,12 +879,15 @@ bool Landmarks::relocalize(Localization& result) {
   since_.covariance = Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal();
   belief_.pose = pose;
   if (given_.empty()) {
-    graph_.add_keyframe(pose, since_);
+    base_keyframe_ = graph_.add_keyframe(base_keyframe_, pose, since_);
+    base_is_keyframe_ = true;
+    clouds_.push_back(scan_);
   } else {
     belief_.covariance = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
   }
   since_ = PoseEstimate{};
   refresh();
+  rebuild_near();
   since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
   candidate_.reset();
   lost_ = false;
@@ -657,6 +903,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       measurements_.push_back(m);
     }
   }
+  collect_points(input);
   result.map.clear();
   const bool first = graph_.keyframes().empty();
   if (first) {
@@ -671,7 +918,11 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     const double seconds = stamp_ ? std::max(1e-3, input.stamp - *stamp_) : 0.1;
     has_odometry_ = input.motion.has_value();
     if (input.motion) {
-      since_ = compose_correlated(since_, *input.motion);
+      PoseEstimate motion = *input.motion;
+      Eigen::Vector3d scale(odometry_scale_.x(), odometry_scale_.x(), odometry_scale_.y());
+      scale = scale.cwiseSqrt();
+      motion.covariance = scale.asDiagonal() * motion.covariance * scale.asDiagonal();
+      since_ = compose_correlated(since_, motion);
       search_covariance_ = since_.covariance;
     } else {
       // From the last scan on; the spread grows with the time since the last keyframe.
@@ -688,11 +939,33 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     }
     Belief posterior;
     if (lost_ && relocalize(result)) fits_ = true;
+    motion_ = since_;
+    PoseWindow window;
+    window.center = compose(belief_.pose, since_.pose);
+    if (input.motion) {
+      const Pose2& step = input.motion->pose;
+      window.translation = 0.15 + 0.3 * std::hypot(step.x, step.y);
+      window.turn = 0.05 + 0.3 * std::abs(step.theta);
+      window.center = compose(last_pose_, step);
+    } else {
+      window.translation = std::clamp(3.0 * parameters_.speed_stddev * seconds, 0.1, 1.0);
+      window.turn = std::clamp(3.0 * parameters_.turn_stddev * seconds, 0.05, 0.8);
+    }
+    const std::optional<Registration> registration = register_scan(window.center, window);
+    if (registration) {
+      if (input.motion) judge_odometry(*input.motion, *registration);
+      fuse(*registration);
+    }
+    share_ = registration ? registration->share : 0.0;
+    scan_pose_ = registration ? registration->estimate.pose : window.center;
+    scan_covariance_ = registration ? registration->estimate.covariance : unknown_place;
+    registered_.reset();
     double weakening = 1.0;
-    Pairs pairs = find_pairs(predict(search_covariance_), weakening);
-    since_.covariance *= weakening;
-    const Belief prior = predict(since_.covariance);
+    Pairs pairs = find_pairs(predict({motion_.pose, search_covariance_}), weakening);
+    motion_.covariance *= weakening;
+    const Belief prior = predict(motion_);
     update(prior, pairs, posterior);
+    if (pairs.empty()) posterior = prior;
     judge(posterior, pairs, result);
     const double matched = length_of(pairs);
     const double total = length_of_scan();
@@ -708,6 +981,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       found_scans_ = 0;
       result.status = LocalizationStatus::lost;
     }
+    if (registration) registered_ = posterior.pose;
     velocity_ = twist_of(between(last_pose_, posterior.pose)) / seconds;
     last_pose_ = posterior.pose;
     const Pose2 way = between(belief_.pose, posterior.pose);
@@ -718,16 +992,22 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
          std::abs(way.theta) > parameters_.keyframe_angle ||
          (shows_new && (driven > 0.25 * parameters_.keyframe_distance ||
                         std::abs(way.theta) > 0.25 * parameters_.keyframe_angle)))) {
-      add_keyframe(posterior, pairs);
+      if (is_known(posterior.pose, matched, total)) {
+        go_on(posterior);
+      } else {
+        add_keyframe(posterior, pairs);
+      }
       // What the graph has smoothed moves the last scan along.
-      last_pose_ = belief_.pose;
-      result.pose = {belief_.pose, belief_.covariance.topLeftCorner<3, 3>()};
+      if (base_is_keyframe_ && since_.pose.x == 0.0 && since_.pose.y == 0.0) {
+        last_pose_ = belief_.pose;
+        result.pose = {belief_.pose, belief_.covariance.topLeftCorner<3, 3>()};
+      }
     }
   }
   result.keyframe.reset();
   if (given_.empty()) {
-    result.keyframe = graph_.keyframes().size() - 1;
-    result.in_keyframe = between(graph_.keyframes().back().pose, result.pose.pose);
+    result.keyframe = base_is_keyframe_ ? base_keyframe_ : nearest_keyframe(result.pose.pose);
+    result.in_keyframe = between(graph_.keyframes()[*result.keyframe].pose, result.pose.pose);
   }
   stamp_ = input.stamp;
   if (!input.wants_map) return;
@@ -781,10 +1061,11 @@ void Landmarks::use_map(std::span<const MapLine> map, const std::optional<PoseEs
   const PoseEstimate from =
       pose.value_or(PoseEstimate{{}, Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal()});
   lost_ = !pose;
-  graph_.add_keyframe(from.pose, {});
+  graph_.add_keyframe(0, from.pose, {});
   belief_.pose = last_pose_ = from.pose;
   belief_.covariance = from.covariance;
   refresh();
+  rebuild_near();
 }
 
 }  // namespace quoin

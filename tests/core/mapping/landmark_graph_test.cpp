@@ -47,7 +47,8 @@ struct Example {
         motion.covariance = 4e-4 * Eigen::Matrix3d::Identity();
         dead_reckoned = compose(dead_reckoned, motion.pose);
       }
-      graph.add_keyframe(dead_reckoned, motion);
+      graph.add_keyframe(graph.keyframes().empty() ? 0 : graph.keyframes().size() - 1,
+                         dead_reckoned, motion);
       for (std::size_t k = 0; k < walls.size(); ++k) {
         LineMeasurement m;
         m.covariance = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
