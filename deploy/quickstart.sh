@@ -20,7 +20,7 @@ build=$root/build
     (cd "$root" && cmake --preset release -DQUOIN_TESTS=OFF -DQUOIN_BENCHMARKS=OFF)
   fi
   cmake --build "$build" --target quoin quoin-simulated quoin-replay quoin-segmentation \
-    quoin-line-fitting quoin-circle-fitting quoin-corner-estimation quoin-viewer
+    quoin-line-fitting quoin-circle-fitting quoin-corner-estimation quoin-recorder quoin-viewer
   printf '\nOpen http://127.0.0.1:%s/ in a browser to look at it.\n\n' "${QUOIN_PORT:-8765}"
 } >&2
 

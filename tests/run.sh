@@ -69,7 +69,13 @@ finish() {
 
 step "packages"
 deploy/install_packages.sh
-if ! $build_only; then deploy/install_packages.sh tests/packages.txt; fi
+if ! $build_only; then
+  deploy/install_packages.sh tests/packages.txt
+  # What npm brings is for tests of the page alone; without it they are skipped.
+  if command -v npm >/dev/null; then
+    (cd tests/npm && npm ci --no-audit --no-fund) || echo "npm packages are missing: tests with them are skipped"
+  fi
+fi
 
 if ! $build_only; then
   step "format"

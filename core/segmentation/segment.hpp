@@ -13,6 +13,8 @@
 
 namespace quoin {
 
+struct SegmentationTrace;
+
 /// Points [begin, end) of a scan, such as those on one straight wall.
 struct Segment {
   std::size_t begin = 0;
@@ -35,6 +37,8 @@ struct Segmentation {
   std::vector<Segment> arcs;
   std::vector<std::size_t> foreign;  ///< ascending: points inside of them that are not on them
   std::size_t no_return = 0;         ///< points with what the sensor writes where nothing came back
+  /// Where it is to be said what became of each point; usually nowhere, and then nobody asks.
+  SegmentationTrace* trace = nullptr;
 
   void clear() {
     segments.clear();

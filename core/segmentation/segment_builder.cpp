@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/segmentation/arcs.hpp"
 #include "core/segmentation/strays.hpp"
@@ -70,25 +71,35 @@ std::size_t index_with(std::span<const std::size_t> removed, std::size_t i) {
   return i + before;
 }
 
-/// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0.
-double straight_length_squared(const PointsView& points, const Segment& segment,
+/// Squared length [m^2] of a piece that is straight and longer than its tolerance is wide; else 0,
+/// and why.
+struct StraightLength {
+  double squared = 0.0;
+  PointOutcome why = PointOutcome::too_short;
+};
+
+StraightLength straight_length(const PointsView& points, const Segment& segment,
                                const SensorModel& sensor, const Tolerance& tolerance,
                                double max_bend) {
   const double dx = points.x[segment.end - 1] - points.x[segment.begin];
   const double dy = points.y[segment.end - 1] - points.y[segment.begin];
   const double squared = dx * dx + dy * dy;
-  if (!(squared > 4.0 * tolerance.base)) return 0.0;
-  if (segment.size() > 2 && hangs_on_one_point(points, segment, squared)) return 0.0;
+  if (!(squared > 4.0 * tolerance.base)) return {0.0, PointOutcome::too_narrow};
+  if (segment.size() > 2 && hangs_on_one_point(points, segment, squared)) {
+    return {0.0, PointOutcome::one_point};
+  }
   // Longer than ten times the tolerance, with the default bend: no table leg, bin or person.
-  if (4.0 * max_bend * max_bend * squared > tolerance.largest) return squared;
+  if (4.0 * max_bend * max_bend * squared > tolerance.largest) return {squared};
   const double length = std::sqrt(squared);
   const NormalLine chord{-dy / length, dx / length, 0.0};
   const std::size_t middle = segment.begin + segment.size() / 2;
   const double width_squared =
       4.0 * tolerance.squared(points, middle, chord.normal_x, chord.normal_y);
-  if (!(squared > width_squared)) return 0.0;
-  return segment.size() >= 4 && is_bent(points, segment, chord, length, sensor, max_bend) ? 0.0
-                                                                                          : squared;
+  if (!(squared > width_squared)) return {0.0, PointOutcome::too_narrow};
+  if (segment.size() >= 4 && is_bent(points, segment, chord, length, sensor, max_bend)) {
+    return {0.0, PointOutcome::too_bent};
+  }
+  return {squared};
 }
 
 /// Without its first and its last point, where they are not left out at a corner already: a ray
@@ -110,9 +121,11 @@ Segment without_ends(const Piece& piece, const SegmentationParameters& parameter
 /// - with a direction that does not depend on one point at an end,
 /// - not bent: table legs, bins and people are round, and pieces of them fit into the tolerance.
 ///   Bent is what has a sagitta of more than `max_bend` of its length that noise does not explain.
+/// Where they are asked for, `verdicts` has one for each piece.
 void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
                   const SegmentationParameters& parameters, const SensorModel& sensor,
-                  const Tolerance& tolerance, Segmentation& found) {
+                  const Tolerance& tolerance, Segmentation& found,
+                  std::vector<PointOutcome>* verdicts) {
   const auto min_points = static_cast<std::size_t>(parameters.min_points);
   const double enough = parameters.min_length * parameters.min_length;
   double before = 0.0;   // squared length of the piece before
@@ -120,22 +133,29 @@ void select_lines(const PointsView& points, const std::vector<Piece>& pieces,
   const Piece* last = nullptr;
   for (const Piece& piece : pieces) {
     if (piece.round) {
+      if (verdicts != nullptr) verdicts->push_back(PointOutcome::arc);
       found.arcs.push_back(piece.segment);
       pending = false;
       before = 0.0;
       continue;
     }
     const bool counts = piece.segment.size() >= min_points;
-    const double length = counts ? straight_length_squared(points, piece.segment, sensor, tolerance,
-                                                           parameters.max_bend)
-                                 : 0.0;
+    const StraightLength straight =
+        counts ? straight_length(points, piece.segment, sensor, tolerance, parameters.max_bend)
+               : StraightLength{0.0, PointOutcome::too_few_points};
+    const double length = straight.squared;
     const bool is_long = length > 0.0 && length >= enough;
     const bool is_half = length > 0.0 && 4.0 * length >= enough;
-    if (pending && piece.joined && is_long)
+    if (pending && piece.joined && is_long) {
       found.segments.push_back(without_ends(*last, parameters));
+      if (verdicts != nullptr) verdicts->back() = PointOutcome::piece_end;
+    }
     const bool supported = piece.joined && before > 0.0 && before >= enough;
-    if (is_long || (is_half && supported))
-      found.segments.push_back(without_ends(piece, parameters));
+    const bool usable = is_long || (is_half && supported);
+    if (usable) found.segments.push_back(without_ends(piece, parameters));
+    if (verdicts != nullptr) {
+      verdicts->push_back(usable ? PointOutcome::piece_end : straight.why);
+    }
     pending = is_half && !is_long && !supported;
     last = &piece;
     before = length;
@@ -216,15 +236,20 @@ void SegmentBuilder::add_all(std::vector<Segment>& pieces) {
 void SegmentBuilder::finish(Segmentation& found) {
   found.clear();
   found.no_return = no_return_;
+  SegmentationTrace* const trace = found.trace;
+  if (trace != nullptr) begin_trace(*trace);
+  note_lost(PointOutcome::no_line, trace);
   const auto min_points = static_cast<std::size_t>(parameters_.min_points);
   if (parameters_.merge || parameters_.refine) {
     // What a method cut off a wall is joined to it before it counts as small.
     drop_small(parameters_.merge ? fewest_points + 1 : min_points, min_points, pieces_);
     fit_pieces(points_, pieces_);
+    note_lost(PointOutcome::too_few_points, trace);
   }
   if (parameters_.merge) {
     merge_collinear(points_, tolerance_, pieces_);
     drop_small(min_points, min_points, pieces_);
+    note_lost(PointOutcome::too_few_points, trace);
     find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_, blocks_);
     left_out_.clear();
     const bool changed =
@@ -236,13 +261,72 @@ void SegmentBuilder::finish(Segmentation& found) {
       leave_out(left_out_);
     }
     if (changed) fit_pieces(points_, pieces_);
+    note_lost(PointOutcome::off_line, trace);
   }
   if (parameters_.refine) refine_boundaries(points_, min_points, tolerance_, closed_, pieces_);
+  note_lost(PointOutcome::at_corner, trace);
 
-  select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found);
+  std::vector<PointOutcome> verdicts;  // no memory unless traced
+  select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found,
+               trace != nullptr ? &verdicts : nullptr);
   if (!removed_.empty()) to_scan(found);
   if (parameters_.merge) {
     thin_things_.find(scan_, sensor_, tolerance_, breakpoints_, parameters_.flatness, found);
+  }
+  if (trace != nullptr) end_trace(found, verdicts, *trace);
+}
+
+void SegmentBuilder::begin_trace(SegmentationTrace& trace) const {
+  trace.outcomes.assign(scan_.size(), PointOutcome::no_line);
+  for (const std::size_t i : removed_) trace.outcomes[i] = PointOutcome::foreign;
+  std::vector<std::size_t> fill;
+  find_fill(scan_, sensor_, fill);
+  for (const std::size_t i : fill) trace.outcomes[i] = PointOutcome::no_return;
+  trace.surfaces.assign(scan_.size(), 0);
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    const std::size_t end =
+        k + 1 < clusters_.size() ? index_with(removed_, clusters_[k + 1].begin) : scan_.size();
+    for (std::size_t i = index_with(removed_, clusters_[k].begin); i < end; ++i) {
+      trace.surfaces[i] = static_cast<std::uint32_t>(k);
+    }
+  }
+}
+
+void SegmentBuilder::note_lost(PointOutcome step, SegmentationTrace* trace) {
+  if (trace == nullptr) return;
+  std::vector<char> now(scan_.size(), 0);
+  for (const Piece& piece : pieces_) {
+    for (std::size_t i = piece.segment.begin; i < piece.segment.end; ++i) {
+      now[index_with(removed_, i)] = 1;
+    }
+  }
+  if (step != PointOutcome::no_line) {  // the first call; what is in no piece is no_line already
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (covered_[i] != 0 && now[i] == 0) trace->outcomes[i] = step;
+    }
+  }
+  covered_ = std::move(now);
+}
+
+void SegmentBuilder::end_trace(const Segmentation& found, const std::vector<PointOutcome>& verdicts,
+                               SegmentationTrace& trace) const {
+  const auto set = [&](const Segment& run, PointOutcome outcome) {
+    for (std::size_t i = run.begin; i < run.end; ++i) trace.outcomes[i] = outcome;
+  };
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    const Segment& own = pieces_[k].segment;
+    for (std::size_t i = own.begin; i < own.end; ++i) {
+      trace.outcomes[index_with(removed_, i)] = verdicts[k];
+    }
+  }
+  for (const Segment& run : found.segments) set(run, PointOutcome::segment);
+  for (const Segment& run : found.arcs) set(run, PointOutcome::arc);
+  // A foreign point of a thin thing in front of a wall is of an arc all the same.
+  for (const std::size_t i : found.foreign) {
+    const bool round = std::ranges::any_of(found.arcs, [&](const Segment& run) {
+      return run.begin <= i && i < run.end && run.size() <= found.foreign.size();
+    });
+    if (!round) trace.outcomes[i] = PointOutcome::foreign;
   }
 }
 

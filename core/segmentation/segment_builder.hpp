@@ -12,6 +12,7 @@
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/straightness.hpp"
 #include "core/segmentation/tolerance.hpp"
+#include "core/segmentation/trace.hpp"
 
 namespace quoin {
 
@@ -48,6 +49,11 @@ class SegmentBuilder {
 
  private:
   void leave_out(std::span<const std::size_t> left_out);
+  void begin_trace(SegmentationTrace& trace) const;
+  /// Points that were in pieces at the last call and are no more: that step took them.
+  void note_lost(PointOutcome step, SegmentationTrace* trace);
+  void end_trace(const Segmentation& found, const std::vector<PointOutcome>& verdicts,
+                 SegmentationTrace& trace) const;
   /// The indices of own points become those of the scan; those in between are foreign.
   void to_scan(Segmentation& found) const;
 
@@ -68,8 +74,9 @@ class SegmentBuilder {
   std::vector<TestedBlocks> blocks_;  // of the pieces
   bool many_strays_ = false;
   std::size_t no_return_ = 0;
-  bool closed_ = false;      // the surface goes on from the last point to the first
-  std::size_t cluster_ = 0;  // of the last piece
+  std::vector<char> covered_;  // by point of the scan: in a piece; only when traced
+  bool closed_ = false;        // the surface goes on from the last point to the first
+  std::size_t cluster_ = 0;    // of the last piece
 };
 
 }  // namespace quoin

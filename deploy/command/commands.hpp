@@ -36,6 +36,7 @@ struct Command {
 [[nodiscard]] Command add_compare(CLI::App& app);
 [[nodiscard]] Command add_draw(CLI::App& app);
 [[nodiscard]] Command add_evaluate(CLI::App& app);
+[[nodiscard]] Command add_explain(CLI::App& app);
 [[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
 [[nodiscard]] Command add_record(CLI::App& app);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <cstdint>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,6 +10,8 @@
 
 #include "deploy/command/commands.hpp"
 #include "deploy/evaluation/drawing/drawing.hpp"
+#include "deploy/evaluation/drawing/png.hpp"
+#include "deploy/export/output_file.hpp"
 #include "deploy/kinds/kinds.hpp"
 #include "deploy/observation/display.hpp"
 #include "deploy/observation/scan_join.hpp"
@@ -130,13 +132,9 @@ int run(const DrawOptions& options) {
   const int exit_code = companion.stop(signals);
   if (!drawing) return exit_code != exit_ok ? exit_code : exit_failure;
 
-  std::ofstream file(options.output, std::ios::binary);
-  file << draw_svg(*drawing, options.drawing);
-  file.close();
-  if (!file) {
-    std::cerr << options.output << ": cannot be written\n";
-    return exit_failure;
-  }
+  const std::string svg = draw_svg(*drawing, options.drawing);
+  const bool png = std::filesystem::path(options.output).extension() == ".png";
+  write_whole(options.output, png ? png_of(svg) : svg);
   std::cout << options.output << ": " << drawing->title << "; " << drawing->points.size()
             << " points, " << drawing->lines.size() << " lines, " << drawing->corners.size()
             << " corners";
@@ -149,12 +147,13 @@ int run(const DrawOptions& options) {
 
 Command add_draw(CLI::App& app) {
   CLI::App* line = app.add_subcommand(
-      "draw", "Draw one scan with its lines, corners, circles and 95 % ellipses as SVG");
+      "draw", "Draw one scan with its lines, corners, circles and 95 % ellipses as SVG or PNG");
   const auto options = std::make_shared<DrawOptions>();
   line->add_option("file", options->file, "Deployment file (YAML)")->required();
   line->add_option("--service", options->service, "Corner service whose result is drawn")
       ->required();
-  line->add_option("-o,--output", options->output, "SVG file to write")->required();
+  line->add_option("-o,--output", options->output, "File to write: .png is PNG, anything else SVG")
+      ->required();
   line->add_option("--scan", options->scan,
                    "Number of the scan, from 0; else the first that is complete");
   line->add_flag("--run", options->run, "Start the deployment for the picture and stop it again");

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
       add_echo(app),   add_compare(app),   add_draw(app),   add_evaluate(app),  add_export(app),
       add_record(app), add_recording(app), add_lidar(app),  add_swap(app),      add_set(app),
       add_keys(app),   add_discovery(app), add_doctor(app), add_calibrate(app), add_version(app),
-      add_view(app)};
+      add_view(app),   add_explain(app)};
   try {
     app.parse(argc, argv);
     for (const Command& command : commands) {

@@ -28,7 +28,7 @@ struct ViewOptions {
 int run(const ViewOptions& options) {
   const Deployment deployment = load_deployment(options.file);
   Signals signals;
-  viewer::LiveView view(deployment.name_space, options.parameters, "",
+  viewer::LiveView view(deployment, options.parameters, "",
                         [](const std::string& text) { std::cerr << text << '\n'; });
   auto config = runtime::participant_config(deployment, "quoin_view", observer_identity);
   std::vector<viewer::Feed::Observed> observed;

@@ -25,13 +25,16 @@ Channel cdr_channel(const std::string& topic, std::string_view dds_type, std::st
 
 }  // namespace
 
-LiveView::LiveView(const std::string& name, const ViewerParameters& parameters,
+LiveView::LiveView(const Deployment& deployment, const ViewerParameters& parameters,
                    const std::filesystem::path& base, Server::Log log)
-    : hub_(name),
-      heartbeats_(hub_.add_channel(
-          cdr_channel(status_topic(name), "quoin::msg::ServiceStatus", "Status.idl"))),
+    : hub_(deployment.name_space),
+      explainer_(deployment),
+      heartbeats_(hub_.add_channel(cdr_channel(status_topic(deployment.name_space),
+                                               "quoin::msg::ServiceStatus", "Status.idl"))),
       views_(hub_),
       server_(server_settings(parameters, base), hub_, std::move(log)) {
+  hub_.add_service("explain",
+                   [this](const std::string& request) { return explainer_.answer(request); });
   hub_.limit(static_cast<std::size_t>(parameters.clients), client_limits(parameters));
 }
 
@@ -48,7 +51,9 @@ std::uint32_t LiveView::channel_of(const std::string& topic, const std::string& 
 void LiveView::publish(const std::string& topic, const std::string& type,
                        std::shared_ptr<const void> owner, const topics::RawMessage& raw,
                        const msg::Header& header) {
-  hub_.publish(channel_of(topic, type), {std::move(owner), raw.cdr, system_now()});
+  const Payload payload{std::move(owner), raw.cdr, system_now()};
+  if (type == "scan") explainer_.add(topic, header.stamp(), payload);
+  hub_.publish(channel_of(topic, type), payload);
   views_.publish(topic, raw.cdr, header.frame(), header.stamp());
 }
 

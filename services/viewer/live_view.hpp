@@ -12,6 +12,7 @@
 
 #include "services/deployment/deployment.hpp"
 #include "services/topics/cdr_codec.hpp"
+#include "services/viewer/explainer.hpp"
 #include "services/viewer/foxglove_channels.hpp"
 #include "services/viewer/hub.hpp"
 #include "services/viewer/server.hpp"
@@ -24,7 +25,7 @@ namespace quoin::viewer {
 class LiveView {
  public:
   /// Paths of the parameters count from `base`. Throws what Server and server_settings throw.
-  LiveView(const std::string& name, const ViewerParameters& parameters,
+  LiveView(const Deployment& deployment, const ViewerParameters& parameters,
            const std::filesystem::path& base, Server::Log log);
 
   /// A message of that topic and type (of the table of topic types), which `owner` keeps alive. One
@@ -40,6 +41,7 @@ class LiveView {
   [[nodiscard]] std::uint32_t channel_of(const std::string& topic, const std::string& type);
 
   Hub hub_;
+  Explainer explainer_;
   const std::uint32_t heartbeats_;  // channel
   FoxgloveChannels views_;
   std::map<std::string, std::uint32_t> channels_;  // by topic

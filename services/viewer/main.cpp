@@ -16,7 +16,7 @@ namespace {
 
 runtime::Component::Body open(const Deployment& deployment, const ServiceConfig& config) {
   const auto view = std::make_shared<viewer::LiveView>(
-      deployment.name_space, make_parameters<viewer::ViewerParameters>(config.parameters),
+      deployment, make_parameters<viewer::ViewerParameters>(config.parameters),
       deployment.file.parent_path(), [](const std::string& text) { spdlog::warn("{}", text); });
   const auto handle = [view](runtime::Work& work) {
     const auto& message = work.input<runtime::ObservedMessage>();

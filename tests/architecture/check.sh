@@ -68,10 +68,10 @@ deny services/runtime 'core/(segmentation|fitting|corners|circles|simulation)|se
   "the service kit knows no algorithm"
 
 sources() {
-  find CMakeLists.txt core deploy idl sensor_bridge services tests -type f \( "$@" \)
+  find CMakeLists.txt core deploy idl sensor_bridge services tests -name node_modules -prune -o -type f \( "$@" \) -print
 }
 
-missing=$(sources -name '*.[ch]pp' -o -name '*.[ch]' -o -name '*.idl' -o -name '*.sh' -o -name CMakeLists.txt -o -name '*.yaml' |
+missing=$(sources -name '*.[ch]pp' -o -name '*.[ch]' -o -name '*.idl' -o -name '*.sh' -o -name CMakeLists.txt -o -name '*.yaml' -o -name '*.js' -o -name '*.mjs' -o -name '*.css' |
   grep -v '^tests/services/deployment/malformed/' | xargs grep -LE 'SPDX-License-Identifier: Apache-2\.0')
 if [[ -n $missing ]]; then
   printf 'no SPDX header:\n%s\n' "$missing"

@@ -165,7 +165,7 @@ void draw_circles(Svg& svg, const Drawing& drawing, const Projection& to, double
     svg.circle("round", x, y, circle.radius * to.scale);
     svg.ellipse("center", x, y, circle.center.semi_major * enlarged,
                 circle.center.semi_minor * enlarged, -circle.center.direction * degrees_per_radian);
-    svg.circle("middle", x, y, 2.0);
+    svg.circle("hub", x, y, 2.0);
   }
   svg.close("g");
 }
@@ -233,7 +233,7 @@ void draw_legend(Svg& svg, const Drawing& drawing, double ellipse_scale, std::si
   entry(std::to_string(drawing.lines.size()) + " lines");
   if (!drawing.circles.empty()) {
     svg.circle("round", x, y, 7.0);
-    svg.circle("middle", x, y, 2.0);
+    svg.circle("hub", x, y, 2.0);
     entry(std::to_string(drawing.circles.size()) + " circles");
   }
   svg.ellipse("uncertainty", x, y, 9.0, 5.0, 0.0);
@@ -262,7 +262,7 @@ constexpr StyleSheet style{
     ".point{fill:#4a6fa5}.fitted{stroke:#e07b00;stroke-width:2;stroke-linecap:round}"
     ".uncertainty{fill:#c62828;fill-opacity:.18;stroke:#c62828;stroke-width:1.2}"
     ".round{fill:none;stroke:#7b1fa2;stroke-width:1.6}"
-    ".center{fill:#7b1fa2;fill-opacity:.18;stroke:#7b1fa2;stroke-width:1.2}.middle{fill:#7b1fa2}"
+    ".center{fill:#7b1fa2;fill-opacity:.18;stroke:#7b1fa2;stroke-width:1.2}.hub{fill:#7b1fa2}"
     ".corner{fill:#c62828}.sensor{fill:#2e7d32;stroke:#2e7d32;stroke-width:2}"
     ".compared ellipse{fill-opacity:0;stroke-width:1.8}"
     ".s1{fill:#00695c;stroke:#00897b;stroke-dasharray:7 3}"
@@ -271,7 +271,7 @@ constexpr StyleSheet style{
     ".background{fill:#14171c}text{fill:#e4e6ea}.tick{fill:#9aa3ad}.minor{stroke:#2a2f37}"
     ".axis{stroke:#59616c}.point{fill:#8fb4e8}.fitted{stroke:#ffa94d}"
     ".uncertainty{fill:#ff7a7a;stroke:#ff7a7a}.corner{fill:#ff7a7a}"
-    ".round{stroke:#ce93d8}.center{fill:#ce93d8;stroke:#ce93d8}.middle{fill:#ce93d8}"
+    ".round{stroke:#ce93d8}.center{fill:#ce93d8;stroke:#ce93d8}.hub{fill:#ce93d8}"
     ".s1{fill:#4fd1c0;stroke:#4fd1c0}.s2{fill:#6cb2ff;stroke:#6cb2ff}"
     ".sensor{fill:#7ddc85;stroke:#7ddc85}.bar{stroke:#e4e6ea}"};
 

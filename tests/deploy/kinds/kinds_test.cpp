@@ -25,7 +25,7 @@ TEST(Kinds, AreListedSourcesFirst) {
   for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
   EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "ros2_scan",
                                  "segmentation", "line_fitting", "corner_estimation",
-                                 "circle_fitting", "viewer", "external"));
+                                 "circle_fitting", "viewer", "recorder", "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {

@@ -33,10 +33,11 @@ int exit_code(int status) {
 Process::Process(const std::string& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& directory) {
   static std::atomic<int> count = 0;
-  const std::string stem = program + "_" + std::to_string(count++);
+  const std::filesystem::path file = std::filesystem::path(QUOIN_BIN_DIR) / program;
+  const std::string stem = file.filename().string() + "_" + std::to_string(count++);
   output_file_ = directory / (stem + ".out");
   error_file_ = directory / (stem + ".err");
-  const std::string path = std::string(QUOIN_BIN_DIR) + "/" + program;
+  const std::string path = file.string();
   std::vector<char*> argv{const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);

@@ -14,7 +14,8 @@ namespace quoin::tests {
 /// A program of this build, running. Killed (by its pid) when the object goes.
 class Process {
  public:
-  /// Starts build/bin/`program`; its output goes to files in `directory`.
+  /// Starts build/bin/`program`, or one with an absolute path; its output goes to files in
+  /// `directory`.
   Process(const std::string& program, const std::vector<std::string>& arguments,
           const std::filesystem::path& directory);
   ~Process();

@@ -3,13 +3,14 @@
 //
 // Debian's Chromium looks at the page of a running viewer. Prints one JSON object of what it saw; the test judges.
 //   node browser.mjs URL FOLDER      pictures go into FOLDER
-import { mkdtempSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const [url, folder] = process.argv.slice(2);
-const context = await chromium.launchPersistentContext(mkdtempSync(join(tmpdir(), 'quoin-browser-')), {
+const profile = mkdtempSync(join(tmpdir(), 'quoin-browser-'));
+const context = await chromium.launchPersistentContext(profile, {
   executablePath: '/usr/bin/chromium',
   headless: true,
   args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
@@ -123,3 +124,4 @@ await page.screenshot({ path: join(folder, 'narrow_light.png') });
 
 console.log(JSON.stringify(seen));
 await context.close();
+rmSync(profile, { recursive: true, force: true });
