@@ -258,6 +258,12 @@ class ScanFilesSection : public Section {
             CornerFinders::make<CornerFinder>(CornerFinders::descriptions().front().name, {})};
   }
 
+  /// Where the robot was, as far as the recording knows.
+  static std::optional<Pose2> pose_of(const sensor_bridge::RecordedScan& scan) {
+    if (scan.pose || scan.odometry.empty()) return scan.pose;
+    return scan.odometry.back().pose;
+  }
+
   void extract(Entry& entry, const std::stop_token& stop) const {
     Extraction extraction = make_extraction(entry, stop);
     ScanStatistics statistics;
@@ -269,7 +275,7 @@ class ScanFilesSection : public Section {
       statistics.add(extraction, sensor_);
       const sensor_bridge::RecordedScan& scan = file.scans[k];
       if (scan.first_of_file) consistency.begin_recording();
-      consistency.add(extraction, scan.pose ? scan.pose : scan.odometry);
+      consistency.add(extraction, pose_of(scan));
       if (!entry.picture.points.empty() || extraction.corners().empty()) continue;
       entry.picture = picture(extraction);
       entry.picture.title = "scan " + std::to_string(k);

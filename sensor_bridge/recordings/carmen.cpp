@@ -76,19 +76,16 @@ std::optional<Pose2> finite(const Pose2& pose) {
 void parse_flaser(Words& words, double field_of_view, RecordedScan& scan) {
   scan.clear();
   const std::size_t count = range_count(words);
-  // An even number of rays is a half-open sweep (180 rays at 1 degree, 360 at 0.5), an odd number
-  // has a ray at both ends (181, 361): so the SICK LMS delivers them and CARMEN wrote them down.
-  const std::size_t steps = count % 2 == 0 || count == 1 ? count : count - 1;
-  const double step = field_of_view / static_cast<double>(steps);
   for (std::size_t i = 0; i < count; ++i) {
     scan.ranges.push_back(static_cast<float>(words.number(count, i)));
-    scan.bearings.push_back(
-        static_cast<float>(-0.5 * field_of_view + static_cast<double>(i) * step));
   }
+  fill_bearings(count, field_of_view, scan.bearings);
   double values[7] = {};
   for (std::size_t i = 0; i < 7; ++i) values[i] = words.number(count, count + i);
   scan.pose = finite({values[0], values[1], values[2]});
-  scan.odometry = finite({values[3], values[4], values[5]});
+  if (const auto odometry = finite({values[3], values[4], values[5]})) {
+    scan.odometry.push_back({std::nullopt, *odometry});
+  }
   if (std::isfinite(values[6])) scan.stamp = values[6];
 
   std::string_view host;
@@ -102,6 +99,15 @@ void parse_flaser(Words& words, double field_of_view, RecordedScan& scan) {
 }
 
 }  // namespace
+
+void fill_bearings(std::size_t count, double field_of_view, std::vector<float>& bearings) {
+  const std::size_t steps = count % 2 == 0 || count == 1 ? count : count - 1;
+  const double step = field_of_view / static_cast<double>(steps);
+  bearings.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    bearings.push_back(static_cast<float>(-0.5 * field_of_view + static_cast<double>(i) * step));
+  }
+}
 
 bool read_carmen_scan(LineReader& lines, double field_of_view, RecordedScan& scan) {
   std::string_view line;

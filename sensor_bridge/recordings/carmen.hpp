@@ -15,4 +15,9 @@ namespace quoin::sensor_bridge {
 /// [rad].
 bool read_carmen_scan(LineReader& lines, double field_of_view, RecordedScan& scan);
 
+/// Bearings [rad] of `count` rays over a swept angle that is centred on the x axis. An even number
+/// of rays is a half-open sweep (180 rays at 1 degree, 360 at 0.5), an odd number has a ray at both
+/// ends (181, 361): so the SICK LMS delivers them and CARMEN wrote them down.
+void fill_bearings(std::size_t count, double field_of_view, std::vector<float>& bearings);
+
 }  // namespace quoin::sensor_bridge

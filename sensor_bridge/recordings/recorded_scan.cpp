@@ -10,8 +10,9 @@ void RecordedScan::clear() {
   stamp.reset();
   bearings.clear();
   ranges.clear();
+  time_offsets.clear();
   pose.reset();
-  odometry.reset();
+  odometry.clear();
   first_of_file = false;
 }
 

@@ -10,17 +10,25 @@
 
 namespace quoin::sensor_bridge {
 
+/// Where the robot was by its wheels.
+struct RecordedOdometry {
+  std::optional<double> stamp;  ///< [s] by the clock of the recording; nothing: that of the scan
+  Pose2 pose;                   ///< in a frame that does not move
+};
+
 /// A scan as a file holds it. Bearings and ranges have the same length.
 struct RecordedScan {
   /// More rays than any 2D LiDAR has: a larger count in a file is damage.
   static constexpr std::size_t max_points = 100000;
 
-  std::optional<double> stamp;    ///< [s] by the clock of the recording, of unknown epoch
-  std::vector<float> bearings;    ///< [rad] counter-clockwise from x
-  std::vector<float> ranges;      ///< [m] as recorded; may be NaN or infinite
-  std::optional<Pose2> pose;      ///< of the laser, as the recording has it
-  std::optional<Pose2> odometry;  ///< of the robot
-  bool first_of_file = false;     ///< stamps before this scan belong to another recording
+  std::optional<double> stamp;      ///< [s] by the clock of the recording, of unknown epoch
+  std::vector<float> bearings;      ///< [rad] counter-clockwise from x
+  std::vector<float> ranges;        ///< [m] as recorded; may be NaN or infinite
+  std::vector<float> time_offsets;  ///< [s] of each ray after `stamp`, or none
+  std::optional<Pose2> pose;        ///< of the laser, as the recording has it
+  /// Since the scan before, in the order of the file.
+  std::vector<RecordedOdometry> odometry;
+  bool first_of_file = false;  ///< stamps before this scan belong to another recording
 
   /// Empties the scan and keeps its memory.
   void clear();

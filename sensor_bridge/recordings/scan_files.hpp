@@ -4,17 +4,17 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "sensor_bridge/recordings/line_reader.hpp"
 #include "sensor_bridge/recordings/parameters.hpp"
 #include "sensor_bridge/recordings/recorded_scan.hpp"
+#include "sensor_bridge/recordings/scan_reader.hpp"
 
 namespace quoin::sensor_bridge {
 
-/// `path` itself, or the .csv, .log and .log.gz files in the folder `path` in the order of their
-/// names. Throws ScanFileError when there is none.
+/// `path` itself, or the .csv, .log and .dat files, plain or compressed, in the folder
+/// `path` in the order of their names. Throws ScanFileError when there is none.
 [[nodiscard]] std::vector<std::filesystem::path> list_scan_files(const std::filesystem::path& path);
 
 /// How the file is written, by the end of its name. Throws ScanFileError when that is unknown.
@@ -36,14 +36,12 @@ class ScanFiles {
 
  private:
   void open(std::size_t index);
-  bool read(RecordedScan& scan);
 
   std::vector<std::filesystem::path> files_;
   ScanFormat requested_format_;
   double field_of_view_;
-  std::optional<LineReader> lines_;
-  ScanFormat format_ = ScanFormat::automatic;  // of the file that is open
-  std::size_t index_ = 0;                      // of the file that is open
+  std::unique_ptr<ScanReader> reader_;
+  std::size_t index_ = 0;  // of the file that is open
   std::size_t scans_in_file_ = 0;
 };
 

@@ -9,9 +9,9 @@ namespace quoin::sensor_bridge {
 
 [[nodiscard]] inline const KindInfo& replay_kind() {
   static const KindInfo kind{.name = "replay",
-                             .description = "scans of a recorded file",
+                             .description = "scans, and odometry if asked to, of a recorded file",
                              .program = "quoin-replay",
-                             .outputs = {{"scan"}},
+                             .outputs = {{"scan"}, {"odometry", Rate::own_rate, "odometry"}},
                              .parameters = describe_parameters<ReplayParameters>()};
   return kind;
 }

@@ -8,15 +8,18 @@ Playback::Playback(double speed, double rate) : speed_(speed), period_(1.0 / rat
 
 double Playback::due(const RecordedScan& scan, double now) {
   if (scan.first_of_file) last_stamp_.reset();
+  std::optional<double> gap;
   if (scan.stamp && last_stamp_) {
     const double period = *scan.stamp - *last_stamp_;
-    if (period > 0.0 && period <= longest_period) {
+    if (period > 0.0 && period <= longest_pause) gap = period;
+    if (gap && period <= longest_period) {
       period_ = period;
     } else {
       ++bad_stamps_;
     }
   }
   last_stamp_ = scan.stamp;
+  if (!first_) recorded_time_ += gap.value_or(period_);
   const double wait = speed_ > 0.0 ? period_ / speed_ : 0.0;
   due_ += wait;
   if (first_ || now > due_ + wait) due_ = now;

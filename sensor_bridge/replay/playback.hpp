@@ -14,7 +14,8 @@ namespace quoin::sensor_bridge {
 /// stand still, jump back, overflow or leave out a night. There the last good period is used again.
 class Playback {
  public:
-  static constexpr double longest_period = 10.0;  ///< [s] of recorded time
+  static constexpr double longest_period = 10.0;    ///< [s] of recorded time
+  static constexpr double longest_pause = 86400.0;  ///< [s] a longer one is a wrong stamp
 
   /// `speed`: factor on the recorded speed; 0 is without waiting. `rate` [Hz] for scans without
   /// usable stamps before.
@@ -25,6 +26,10 @@ class Playback {
   /// period continues from `now` and sends no burst.
   [[nodiscard]] double due(const RecordedScan& scan, double now);
 
+  /// Recorded time [s] from the first scan to the one that `due` was asked for last, with pauses of
+  /// up to a day as they are, and the last good period where a stamp cannot be used.
+  [[nodiscard]] double recorded_time() const { return recorded_time_; }
+
   /// Scans whose stamp could not be used although there is one.
   [[nodiscard]] std::size_t bad_stamps() const { return bad_stamps_; }
 
@@ -32,6 +37,7 @@ class Playback {
   double speed_;
   double period_;  // [s] last good one
   double due_ = 0.0;
+  double recorded_time_ = 0.0;
   bool first_ = true;
   std::optional<double> last_stamp_;
   std::size_t bad_stamps_ = 0;

@@ -3,14 +3,18 @@
 #include "sensor_bridge/replay/replay_source.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
+#include <idl/Odometry.h>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "sensor_bridge/recordings/parameters.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
+#include "services/topics/poses.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -28,16 +32,53 @@ bool next(ScanFiles& files, bool loop, RecordedScan& scan) try {
   throw runtime::SourceError(error.what());
 }
 
+std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+/// Odometry of the recording, stamped by the same clock as the scans.
+class OdometryOutput {
+ public:
+  explicit OdometryOutput(const ReplayParameters& parameters) : wanted_(parameters.odometry) {
+    message_.header().frame(parameters.odometry_frame);
+    message_.child_frame(parameters.base_frame);
+  }
+
+  /// What was recorded up to `scan`, which is stamped with `stamp` [ns].
+  bool publish(const RecordedScan& scan, std::int64_t stamp, runtime::Source& source) {
+    if (!wanted_) return true;
+    for (const RecordedOdometry& odometry : scan.odometry) {
+      const double after = odometry.stamp && scan.stamp ? *odometry.stamp - *scan.stamp : 0.0;
+      // Farther off it is a wrong stamp.
+      if (!(std::abs(after) <= Playback::longest_period)) continue;
+      message_.header().stamp(stamp + nanoseconds(after));
+      message_.pose(topics::pose_message({odometry.pose, Eigen::Matrix3d::Zero()}));
+      if (!source.publish_also(message_)) return false;
+      ++published_;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool found_nothing() const { return wanted_ && published_ == 0; }
+
+ private:
+  bool wanted_;
+  msg::Odometry message_;
+  std::size_t published_ = 0;
+};
+
 void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime::Source& source) {
   msg::Scan scan = declared_scan(parameters);
   RecordedScan recorded;
+  OdometryOutput odometry(parameters);
   Playback playback(parameters.speed, parameters.rate_hz);
+  std::optional<std::int64_t> first_stamp;  // [ns] as recorded
   const steady_clock::time_point start = steady_clock::now();
   for (std::int64_t count = 0; parameters.scans == 0 || count < parameters.scans; ++count) {
     if (!next(files, parameters.loop, recorded)) break;
     apply_range_limits(parameters.range_min, parameters.range_max, recorded.ranges);
     scan.bearings() = recorded.bearings;
     scan.ranges() = recorded.ranges;
+    scan.time_offsets() = recorded.time_offsets;
+    scan.duration(recorded.time_offsets.empty() ? 0.0F : recorded.time_offsets.back());
 
     const bool stamps_were_good = playback.bad_stamps() == 0;
     const double due = playback.due(recorded, Seconds(steady_clock::now() - start).count());
@@ -48,9 +89,16 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
     if (!source.wait_until(start + std::chrono::round<steady_clock::duration>(Seconds(due))))
       return;
     const std::chrono::nanoseconds now = system_clock::now().time_since_epoch();
-    scan.header().stamp(now.count());
+    std::int64_t stamp = now.count();
+    if (parameters.stamps == ReplayStamps::recorded) {
+      if (!first_stamp) first_stamp = recorded.stamp ? nanoseconds(*recorded.stamp) : stamp;
+      stamp = *first_stamp + nanoseconds(playback.recorded_time());
+    }
+    if (!odometry.publish(recorded, stamp, source)) return;
+    scan.header().stamp(stamp);
     if (!source.publish(scan)) return;
   }
+  if (odometry.found_nothing()) source.warn("the recording holds no odometry");
   if (playback.bad_stamps() > 0) {
     source.warn(std::to_string(playback.bad_stamps()) + " scans had no usable time stamp");
   }

@@ -13,9 +13,9 @@ namespace quoin::sensor_bridge {
 /// Throws ParameterError or ScanFileError; the body throws runtime::SourceError where a file turns
 /// bad, once all scans before are published.
 ///
-/// A scan is stamped with the wall clock at its publication, as if acquired then: recorded stamps
-/// have no known epoch, and ages and latencies downstream must make sense. Duration is 0 and time
-/// offsets are empty, for the files do not contain them.
+/// A scan is stamped with the wall clock at its publication, as if acquired then, or as recorded
+/// (`stamps`), where ages downstream make no sense. Duration is 0 and time offsets are empty where
+/// the file does not contain them. Odometry comes before the scan up to which it was recorded.
 [[nodiscard]] std::function<void(runtime::Source&)> open_replay(
     const ServiceConfig& config, const std::filesystem::path& base_directory);
 

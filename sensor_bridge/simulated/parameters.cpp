@@ -25,4 +25,18 @@ ScannerSettings scanner_settings(const SimulatedParameters& parameters) {
   return settings;
 }
 
+WheelErrors wheel_errors(const SimulatedParameters& parameters) {
+  WheelErrors errors{parameters.wheel_slip, parameters.wheel_heading_bias, {}};
+  OdometryNoise& noise = errors.noise;
+  for (double* stddev :
+       {&noise.translation_per_metre, &noise.sideways_per_metre, &noise.heading_per_metre,
+        &noise.heading_per_radian, &noise.translation_floor, &noise.heading_floor}) {
+    *stddev *= parameters.wheel_noise;
+  }
+  // At rest wheels count nothing.
+  noise.translation_floor = 0.0;
+  noise.heading_floor = 0.0;
+  return errors;
+}
+
 }  // namespace quoin::sensor_bridge

@@ -9,6 +9,7 @@
 #include "core/parameters/parameter.hpp"
 #include "core/sensor/sensor_fields.hpp"
 #include "core/simulation/scanner.hpp"
+#include "core/simulation/wheel_odometry.hpp"
 
 namespace quoin::sensor_bridge {
 
@@ -28,6 +29,15 @@ struct SimulatedParameters : SensorDeclaration {
   double range_bias = 0.0;                   ///< [m]
   double dropout = 0.0;                      ///< probability
   std::string frame = "laser";
+  bool odometry = false;
+  bool truth = false;
+  double odometry_rate_hz = 50.0;   ///< [Hz]
+  double wheel_slip = 0.02;         ///< the wheels count so much more than was driven
+  double wheel_heading_bias = 0.0;  ///< [rad/m]
+  double wheel_noise = 1.0;         ///< factor on that of OdometryNoise
+  std::string base_frame = "base_link";
+  std::string odometry_frame = "odom";
+  std::string map_frame = "map";
 
   static constexpr auto fields() {
     using P = SimulatedParameters;
@@ -49,12 +59,29 @@ struct SimulatedParameters : SensorDeclaration {
         field(&P::range_max, "range_max", "m", 0.01, 10000.0, "longest range that is measured"),
         field(&P::range_bias, "range_bias", "m", -1.0, 1.0, "error that is added to every range"),
         field(&P::dropout, "dropout", "", 0.0, 1.0, "probability that a ray gives no range"),
-        field(&P::frame, "frame", "frame of the sensor (REP-105)")};
+        field(&P::frame, "frame", "frame of the sensor, which is in the middle of the robot"),
+        field(&P::odometry, "odometry", "publish what the wheels of the robot count, too"),
+        field(&P::truth, "truth", "publish the true pose of the robot at each scan, too"),
+        field(&P::odometry_rate_hz, "odometry_rate_hz", "Hz", 0.1, 1000.0,
+              "messages of odometry a second"),
+        field(&P::wheel_slip, "wheel_slip", "", -0.5, 0.5,
+              "part by which the wheels count more than was driven"),
+        field(&P::wheel_heading_bias, "wheel_heading_bias", "rad/m", -1.0, 1.0,
+              "by how much the wheels turn the robot wrongly on the way"),
+        field(&P::wheel_noise, "wheel_noise", "", 0.0, 100.0,
+              "factor on the noise of what the wheels count: 2 % of the way, 1 % across it, 0.01 "
+              "rad/m, 3 % of turns"),
+        field(&P::base_frame, "base_frame", "frame of the robot"),
+        field(&P::odometry_frame, "odometry_frame", "frame in which odometry is given"),
+        field(&P::map_frame, "map_frame", "frame of the true pose: that of the world")};
     return std::tuple_cat(own, sensor_fields<P>());
   }
 };
 
 /// The scanner that `parameters` describe. Throws ParameterError when they contradict each other.
 [[nodiscard]] ScannerSettings scanner_settings(const SimulatedParameters& parameters);
+
+/// The wheels that `parameters` describe.
+[[nodiscard]] WheelErrors wheel_errors(const SimulatedParameters& parameters);
 
 }  // namespace quoin::sensor_bridge

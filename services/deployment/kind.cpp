@@ -27,6 +27,15 @@ const OutputPort* KindInfo::output(std::string_view type) const {
   return find_port(outputs, &OutputPort::type, type);
 }
 
+bool KindInfo::gives(const OutputPort& port, const ParameterSettings& settings) const {
+  if (port.parameter.empty()) return true;
+  const auto info = std::ranges::find(parameters, port.parameter, &ParameterInfo::name);
+  if (info == parameters.end()) throw std::logic_error("no parameter " + port.parameter);
+  const auto setting = std::ranges::find(settings, port.parameter, &ParameterSetting::name);
+  return detail::parse_boolean(*info,
+                               setting == settings.end() ? info->default_value : setting->text);
+}
+
 const KindInfo* KindList::find(std::string_view name) const {
   for (const KindInfo* kind : kinds) {
     if (kind->name == name) return kind;

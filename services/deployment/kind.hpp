@@ -34,6 +34,9 @@ struct InputPort {
 struct OutputPort {
   std::string type;  ///< of the table of topic types; no two of a kind have the same
   Rate rate = Rate::per_input;
+  /// Boolean parameter of the kind without which there is no such output; "" for those that always
+  /// are. The first output always is.
+  std::string parameter = {};
 };
 
 /// A kind of service: which program it is, what it reads and writes, what can be set.
@@ -57,6 +60,8 @@ struct KindInfo {
   /// Null when it has no such port.
   [[nodiscard]] const InputPort* input(std::string_view port) const;
   [[nodiscard]] const OutputPort* output(std::string_view type) const;
+  /// Whether a service with these parameters, which are valid, has it.
+  [[nodiscard]] bool gives(const OutputPort& port, const ParameterSettings& settings) const;
 };
 
 /// The kinds that a program knows.

@@ -89,6 +89,11 @@ std::string mismatch(const ServiceConfig& writer, const ServiceConfig& reader,
     return "'" + writer.name + "' of kind " + writer.kind + " publishes nothing; name a service " +
            writers_of(wanted, kinds);
   }
+  const OutputPort* const port = writer.info == nullptr ? nullptr : writer.info->output(wanted);
+  if (port != nullptr && !port->parameter.empty()) {
+    return "'" + writer.name + "' gives " + wanted + " only if asked to; set " + port->parameter +
+           ": true in its parameters";
+  }
   std::string text = "'" + writer.name + "' gives " + types_of(writer) + " but " + reader.kind +
                      " reads " + wanted;
   const auto chain = kinds_between(writer.outputs.front().type, wanted, kinds);
@@ -192,6 +197,7 @@ void check_hosts(const std::vector<DraftService>& drafts, Problems& problems) {
 void fill_outputs(ServiceConfig& service, std::string_view name_space) {
   if (service.info == nullptr || service.external()) return;
   for (const OutputPort& port : service.info->outputs) {
+    if (!service.info->gives(port, service.parameters)) continue;
     service.outputs.push_back({.type = port.type,
                                .topic = output_topic(name_space, service.name, port.type),
                                .qos = effective_qos(service.qos, port.type),

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <idl/Odometry.h>
+#include <idl/Pose.h>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,9 +33,20 @@ class RecordingSource : public runtime::Source {
     diagnostics[name] = value;
   }
 
+  bool publish_own(const std::type_info& type, void* message, msg::Header&) override {
+    if (type == typeid(msg::Odometry)) {
+      odometry.push_back(*static_cast<const msg::Odometry*>(message));
+    } else {
+      poses.push_back(*static_cast<const msg::Pose*>(message));
+    }
+    return !stopping();
+  }
+
   std::size_t stop_after = 10000;  ///< published scans
   std::vector<std::chrono::steady_clock::time_point> deadlines;
   std::vector<msg::Scan> scans;
+  std::vector<msg::Odometry> odometry;
+  std::vector<msg::Pose> poses;
   std::vector<const float*> memory;  ///< of the ranges of the published messages
   std::vector<std::string> warnings;
   std::vector<std::string> notes;

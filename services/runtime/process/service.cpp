@@ -98,7 +98,9 @@ std::vector<Node::OutputPart> make_outputs(Service& service, const KindInfo& kin
                                            const PortTypes& types) {
   std::vector<Node::OutputPart> parts;
   for (std::size_t i = 0; i < kind.outputs.size(); ++i) {
-    const OutputConfig& output = service.config.outputs[i];
+    const OutputConfig* const found = service.config.output(kind.outputs[i].type);
+    if (found == nullptr) continue;
+    const OutputConfig& output = *found;
     const TopicQos qos = output_qos(service.config, output);
     std::shared_ptr<LocalTopic> neighbours;
     if (!service.config.process.empty() && !service.config.strength) {

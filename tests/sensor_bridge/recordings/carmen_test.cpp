@@ -55,13 +55,15 @@ TEST(Carmen, ReadsRangesPosesAndStamp) {
   const RecordedScan& scan = result.scans[0];
   EXPECT_THAT(scan.ranges, ElementsAre(1.5F, 2.0F, 2.5F, 81.91F));
   EXPECT_EQ(scan.stamp, 12.5);
-  ASSERT_TRUE(scan.pose && scan.odometry);
+  ASSERT_TRUE(scan.pose);
+  ASSERT_EQ(scan.odometry.size(), 1U);
+  EXPECT_FALSE(scan.odometry[0].stamp) << "that of the scan";
   EXPECT_EQ(scan.pose->x, 1.0);
   EXPECT_EQ(scan.pose->y, 2.0);
   EXPECT_EQ(scan.pose->theta, 0.5);
-  EXPECT_EQ(scan.odometry->x, 3.0);
-  EXPECT_EQ(scan.odometry->y, 4.0);
-  EXPECT_EQ(scan.odometry->theta, 0.25);
+  EXPECT_EQ(scan.odometry[0].pose.x, 3.0);
+  EXPECT_EQ(scan.odometry[0].pose.y, 4.0);
+  EXPECT_EQ(scan.odometry[0].pose.theta, 0.25);
 }
 
 TEST(Carmen, SpreadsBearingsOverTheFieldOfView) {
@@ -119,7 +121,7 @@ TEST(Carmen, AcceptsNumbersThatAreNotFinite) {
   EXPECT_TRUE(std::isnan(result.scans[0].ranges[0]));
   EXPECT_TRUE(std::isinf(result.scans[0].ranges[1]));
   EXPECT_FALSE(result.scans[0].pose);
-  EXPECT_TRUE(result.scans[0].odometry);
+  EXPECT_EQ(result.scans[0].odometry.size(), 1U);
   EXPECT_FALSE(result.scans[0].stamp);
 }
 

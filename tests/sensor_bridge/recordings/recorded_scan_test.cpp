@@ -32,12 +32,12 @@ TEST(RecordedScan, IsEmptyWhenClearedAndKeepsItsMemory) {
   scan.ranges.assign(100, 1.0F);
   scan.bearings.assign(100, 1.0F);
   scan.pose = Pose2{};
-  scan.odometry = Pose2{};
+  scan.odometry.emplace_back();
   scan.first_of_file = true;
   const float* memory = scan.ranges.data();
   scan.clear();
   EXPECT_TRUE(scan.ranges.empty() && scan.bearings.empty());
-  EXPECT_FALSE(scan.stamp || scan.pose || scan.odometry || scan.first_of_file);
+  EXPECT_FALSE(scan.stamp || scan.pose || !scan.odometry.empty() || scan.first_of_file);
   scan.ranges.resize(100);
   EXPECT_EQ(scan.ranges.data(), memory);
 }

@@ -63,9 +63,9 @@ TEST(ScanFiles, ReadAFileOfAnyNameWhenTheFormatIsGiven) {
   ScanFiles carmen(folder.write("two", flaser("5")), ScanFormat::carmen, pi);
   EXPECT_THAT(first_ranges(carmen), ElementsAre(5));
   const std::string file = folder.path() / "one";
-  EXPECT_EQ(
-      error_of<ScanFileError>([&] { ScanFiles files(file, ScanFormat::automatic, pi); }),
-      "cannot find out how scan file '" + file + "' is written; set 'format' to carmen or csv");
+  EXPECT_EQ(error_of<ScanFileError>([&] { ScanFiles files(file, ScanFormat::automatic, pi); }),
+            "cannot find out how scan file '" + file +
+                "' is written; set 'format' to carmen, csv, json or breezyslam");
 }
 
 TEST(ScanFiles, ReportWhatIsMissingWhenOpened) {
@@ -75,7 +75,7 @@ TEST(ScanFiles, ReportWhatIsMissingWhenOpened) {
       "cannot read scan file '/nowhere/a.log': No such file or directory");
   EXPECT_EQ(
       error_of<ScanFileError>([&] { ScanFiles files(folder.path(), ScanFormat::automatic, pi); }),
-      "folder '" + folder.path().string() + "' holds no .csv, .log or .log.gz file");
+      "folder '" + folder.path().string() + "' holds no .csv, .log or .dat file");
 }
 
 TEST(ScanFiles, ReportAFileWithoutScans) {

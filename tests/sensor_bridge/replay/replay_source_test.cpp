@@ -69,6 +69,35 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
   EXPECT_THAT(source.warnings, ElementsAre());
 }
 
+TEST(ReplaySource, PublishesOdometryWithTheStampsOfTheScans) {
+  const TemporaryFolder folder;
+  folder.write("a.log", flaser("1 1", "7") + flaser("1 1", "7.5") + flaser("1 1", "7.25"));
+  const ParameterSettings settings{
+      {"path", "a.log"}, {"stamps", "recorded"}, {"odometry", "true"}, {"speed", "0"}};
+  RecordingSource source;
+  open_replay(source_config(settings), folder.path())(source);
+  ASSERT_EQ(source.odometry.size(), 3U);
+  const std::int64_t expected[] = {7'000'000'000, 7'500'000'000, 8'000'000'000};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(source.scans[i].header().stamp(), expected[i]) << "the last good period goes on";
+    EXPECT_EQ(source.odometry[i].header().stamp(), expected[i]);
+  }
+  EXPECT_EQ(source.odometry[0].header().frame(), "odom");
+  EXPECT_EQ(source.odometry[0].child_frame(), "base_link");
+  EXPECT_EQ(source.odometry[0].pose().y(), 4.0);
+  EXPECT_EQ(source.odometry[0].pose().covariance_xx(), 0.0) << "not known";
+  EXPECT_FALSE(source.odometry[0].velocity_known());
+}
+
+TEST(ReplaySource, WarnsWhereThereIsNoOdometry) {
+  const TemporaryFolder folder;
+  folder.write("a.csv", "0,1\n");
+  RecordingSource source;
+  open_replay(source_config({{"path", "a.csv"}, {"odometry", "true"}}), folder.path())(source);
+  EXPECT_THAT(source.warnings, ElementsAre("the recording holds no odometry"));
+  EXPECT_EQ(source.scans.size(), 1U);
+}
+
 TEST(ReplaySource, StopsAfterTheNumberOfScansAskedFor) {
   const TemporaryFolder folder;
   folder.write("a.csv", "0,1\n");
@@ -124,7 +153,7 @@ TEST(ReplaySource, RefusesWhatIsMissingWhenOpened) {
             }),
             "cannot read scan file '/nowhere/a.log': No such file or directory");
   EXPECT_EQ(error_of<ParameterError>([] { (void)open_replay(source_config({}), "/nowhere"); }),
-            "is missing: scan file, or folder whose .csv, .log and .log.gz files are read in the "
+            "is missing: scan file, or folder whose .csv, .log and .dat files are read in the "
             "order of their names (relative to the deployment file)");
 }
 

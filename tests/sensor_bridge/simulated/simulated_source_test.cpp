@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -56,6 +57,35 @@ TEST(SimulatedSource, PublishesEachRevolutionAtItsEndStampedWithItsBeginning) {
   for (std::size_t i = 1; i < 4; ++i) {
     EXPECT_EQ(source.deadlines[i] - source.deadlines[i - 1], std::chrono::seconds(10));
   }
+}
+
+TEST(SimulatedSource, PublishesOdometryAndTheTruthIfAskedTo) {
+  const ParameterSettings settings{
+      {"rate_hz", "10"}, {"speed", "0.5"},           {"scans", "5"},       {"odometry", "true"},
+      {"truth", "true"}, {"odometry_rate_hz", "20"}, {"wheel_noise", "0"}, {"wheel_slip", "0.1"}};
+  RecordingSource source;
+  open_simulated(source_config(settings), "/nowhere")(source);
+  ASSERT_EQ(source.scans.size(), 5U);
+  ASSERT_EQ(source.poses.size(), 5U);
+  ASSERT_EQ(source.odometry.size(), 11U) << "up to the end of the last scan";
+  const auto way = [](const msg::PoseEstimate& from, const msg::PoseEstimate& to) {
+    return std::hypot(to.x() - from.x(), to.y() - from.y());
+  };
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(source.poses[i].header().stamp(), source.scans[i].header().stamp());
+  }
+  EXPECT_EQ(source.odometry[8].header().stamp(), source.scans[4].header().stamp());
+  EXPECT_EQ(source.odometry[0].pose().x(), 0.0);
+  EXPECT_NEAR(way(source.odometry[0].pose(), source.odometry[8].pose()), 1.1 * 0.2, 1e-9);
+  EXPECT_NEAR(way(source.poses[0].pose(), source.poses[4].pose()), 0.2, 1e-9);
+  EXPECT_GT(source.odometry[8].pose().covariance_xx(), 0.0);
+  EXPECT_EQ(source.poses[0].header().frame(), "map");
+
+  RecordingSource quiet;
+  open_simulated(source_config({{"rate_hz", "10"}, {"speed", "0.5"}, {"scans", "5"}}),
+                 "/nowhere")(quiet);
+  EXPECT_TRUE(quiet.odometry.empty() && quiet.poses.empty());
+  EXPECT_TRUE(same(quiet.scans[4].ranges(), source.scans[4].ranges()));
 }
 
 TEST(SimulatedSource, DeclaresItsSensorModel) {

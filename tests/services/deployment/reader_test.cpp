@@ -262,6 +262,20 @@ TEST(Deployment, IsReadByAServiceAsByAllOthers) {
   }
 }
 
+TEST(Deployment, HasOutputsThatAParameterAsksFor) {
+  const Deployment deployment = deploy::parse_deployment(R"(version: 1
+services:
+  - {name: quiet, kind: simulated}
+  - {name: front, kind: simulated, parameters: {truth: true}}
+)",
+                                                         "robot.yaml");
+  EXPECT_EQ(deployment.service("quiet").outputs.size(), 1U);
+  const std::vector<OutputConfig>& outputs = deployment.service("front").outputs;
+  ASSERT_EQ(outputs.size(), 2U);
+  EXPECT_EQ(outputs[1].topic, "quoin/front/pose");
+  EXPECT_EQ(Graph(deployment).ends().size(), 3U);
+}
+
 TEST(Deployment, NamesTopics) {
   const Deployment deployment = deploy::parse_deployment(chain, "robot.yaml");
   EXPECT_EQ(deployment.service("front").outputs.front().topic, "quoin/front/scan");
