@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <exception>
+#include <idl/LineMap.h>
+#include <idl/Status.h>
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
@@ -18,6 +20,13 @@ namespace {
 constexpr std::size_t header_size = 4;  // [byte] encapsulation
 
 }  // namespace
+
+const CdrCodec* keyed_codec(std::string_view dds_type) {
+  for (const CdrCodec* codec : {&cdr_codec<msg::LineMap>(), &cdr_codec<msg::ServiceStatus>()}) {
+    if (codec->type_name == dds_type) return codec;
+  }
+  return nullptr;
+}
 
 std::size_t encoded_size(const CdrCodec& codec, const void* message) {
   // Of samples that are signed but not encrypted Fast DDS 2.9 loses those that do not end at a

@@ -67,6 +67,10 @@ template <class T>
   return codec;
 }
 
+/// The codec of a structure of idl/ that has a key, without which nobody can read or write its
+/// topics, not even raw; null for all others. A new type with a key is a row of it.
+[[nodiscard]] const CdrCodec* keyed_codec(std::string_view dds_type);
+
 /// [byte] What `encode` writes: with encapsulation header, filled up to a multiple of four.
 [[nodiscard]] std::size_t encoded_size(const CdrCodec& codec, const void* message);
 /// Writes `encoded_size` bytes in the byte order of this machine. The number of bytes; 0 when they

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <vector>
 
 #include <fastcdr/Cdr.h>
@@ -90,14 +91,24 @@ std::function<std::uint32_t()> CdrType::getSerializedSizeProvider(void* data) {
 
 bool CdrType::getKey(void* data, rtps::InstanceHandle_t* handle, bool force_md5) {
   const auto& sample = *static_cast<const CdrSample*>(data);
-  if (key_codec_ == nullptr || sample.codec != key_codec_) return false;
+  if (key_codec_ == nullptr) return false;
+  if (sample.codec == key_codec_) return key_of(sample.message, handle, force_md5);
+  if (sample.codec != nullptr) return false;
+  // Of bytes: whoever writes them gives what was a message once.
+  const topics::RawMessage& bytes = raw(sample);
+  const std::unique_ptr<void, void (*)(void*)> message(key_codec_->create(), key_codec_->destroy);
+  return topics::decode(*key_codec_, bytes.cdr.data(), bytes.cdr.size(), message.get()) &&
+         key_of(message.get(), handle, force_md5);
+}
+
+bool CdrType::key_of(const void* message, rtps::InstanceHandle_t* handle, bool force_md5) const {
   // The generated code has room for 255 characters of a string, and throws at longer ones.
   std::vector<char> key(
-      std::max({key_codec_->key_size, key_codec_->size(sample.message) + 8, handle_size}));
+      std::max({key_codec_->key_size, key_codec_->size(message) + 8, handle_size}));
   eprosima::fastcdr::FastBuffer buffer(key.data(), key.size());
   eprosima::fastcdr::Cdr out(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS);
   try {
-    key_codec_->serialize_key(sample.message, out);
+    key_codec_->serialize_key(message, out);
   } catch (const eprosima::fastcdr::exception::Exception&) {
     return false;
   }

@@ -63,14 +63,14 @@ class Reader : public ReaderBase {
   bool take(T& message) { return take_sample(&message, &topics::cdr_codec<T>()); }
 };
 
-/// Reads the bytes of messages of any type, of which only the name needs to be known. It must be a
-/// type without key: a raw reader matches no writer of a type that has one. Throws
+/// Reads the bytes of messages of any type, of which only the name needs to be known. Of types with
+/// a key those of idl/ can be read: a raw reader matches no writer of another one. Throws
 /// std::runtime_error when DDS refuses to create the entities.
 class RawReader : public ReaderBase {
  public:
   RawReader(Participant& participant, const std::string& topic, const std::string& dds_type,
             const TopicQos& qos)
-      : ReaderBase(participant, topic, dds_type, nullptr, qos) {}
+      : ReaderBase(participant, topic, dds_type, topics::keyed_codec(dds_type), qos) {}
   /// Next message into `message`, whose memory is reused; false when there is none. The bytes are
   /// as they were sent, by whomever: decode, read_header and cdr_to_json check them.
   bool take(topics::RawMessage& message);
@@ -147,13 +147,13 @@ class Writer : public WriterBase {
   bool write(const T& message) { return write_sample(&message, &topics::cdr_codec<T>()); }
 };
 
-/// Writes messages of any type without key, as bytes. Throws std::runtime_error when DDS refuses to
-/// create the entities. One thread at a time writes.
+/// Writes messages of any type without key, or with one of idl/, as bytes. Throws
+/// std::runtime_error when DDS refuses to create the entities. One thread at a time writes.
 class RawWriter : public WriterBase {
  public:
   RawWriter(Participant& participant, const std::string& topic, const std::string& dds_type,
             const TopicQos& qos)
-      : WriterBase(participant, topic, dds_type, nullptr, qos) {}
+      : WriterBase(participant, topic, dds_type, topics::keyed_codec(dds_type), qos) {}
   /// Only the bytes are sent, filled up with zeros to a multiple of four; the times are those of
   /// now. False, too, when they do not begin as XCDR1 does; the rest is not checked.
   bool write(const topics::RawMessage& message);

@@ -100,6 +100,9 @@ class CdrType : public eprosima::fastdds::dds::TopicDataType {
   void deleteData(void* sample) override;
 
  private:
+  bool key_of(const void* message, eprosima::fastrtps::rtps::InstanceHandle_t* handle,
+              bool force_md5) const;
+
   const topics::CdrCodec* key_codec_;  // null when the type has no key
 };
 

@@ -152,7 +152,7 @@ dds::Topic* Participant::Impl::topic(const std::string& name, const std::string&
   } else if (registered->m_isGetKeyDefined != keyed) {
     throw std::runtime_error("DDS type " + type_name +
                              " is in use both with and without its key; " +
-                             "raw readers and writers are for types without key");
+                             "topics::keyed_codec has no row for it");
   }
   if (auto* known = participant->lookup_topicdescription(name)) {
     if (known->get_type_name() != type_name) {

@@ -47,6 +47,11 @@ constexpr int observer_samples = 4096;
 
 }  // namespace
 
+std::size_t queue_depth(QosPreset preset) {
+  return preset == QosPreset::state ? static_cast<std::size_t>(max_instances)
+                                    : static_cast<std::size_t>(history_depth(preset));
+}
+
 int history_depth(QosPreset preset) {
   switch (preset) {
     case QosPreset::sensor:

@@ -44,6 +44,8 @@ struct TopicQos {
 
 /// How many messages a reader of that preset may be behind.
 [[nodiscard]] int history_depth(QosPreset preset);
+/// Messages that a reader in the same process may be behind: as many as DDS would keep for it.
+[[nodiscard]] std::size_t queue_depth(QosPreset preset);
 
 /// Of an output of `service`, for its writer and for its readers.
 [[nodiscard]] TopicQos output_qos(const ServiceConfig& service, const OutputConfig& output);

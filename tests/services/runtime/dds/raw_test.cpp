@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <idl/LineMap.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
 #include <idl/Status.h>
@@ -199,12 +200,42 @@ TEST(Raw, ATopicHasOneTypeInAParticipant) {
                std::runtime_error);
 }
 
-TEST(Raw, ATypeWithAKeyIsNotReadRawBesideItsTypedReader) {
-  Participant participant({test_domain(), "one"});
-  const std::string topic = test_namespace() + "/status";
-  const Reader<msg::ServiceStatus> reader(participant, topic, QosPreset::state);
-  EXPECT_THROW(RawReader(participant, topic, "quoin::msg::ServiceStatus", QosPreset::state),
-               std::runtime_error);
+TEST(Raw, ATypeWithAKeyIsWrittenAndReadRawByItsKey) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  const std::string topic = test_namespace() + "/map/line_map";
+  const std::string type = "quoin::msg::LineMap";
+  Writer<msg::LineMap> writer(sender, topic, QosPreset::state);
+  RawWriter raw_writer(sender, topic, type, QosPreset::state);
+  msg::LineMap part;
+  part.parts(3);
+  topics::RawMessage raw;
+  for (const std::uint32_t version : {1U, 2U}) {
+    for (const std::uint32_t number : {0U, 1U}) {
+      part.part(number);
+      part.version(version);
+      ASSERT_TRUE(writer.write(part));
+    }
+    part.part(2);
+    topics::encode(part, raw);
+    ASSERT_TRUE(raw_writer.write(raw));
+  }
+  // They come late and get the last message of each part.
+  Reader<msg::LineMap> typed_reader(receiver, topic, QosPreset::state);
+  RawReader raw_reader(receiver, topic, type, QosPreset::state);
+  std::set<std::uint32_t> typed_parts, raw_parts;
+  msg::LineMap got;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(take_within(typed_reader, got));
+    EXPECT_EQ(got.version(), 2U);
+    typed_parts.insert(got.part());
+    ASSERT_TRUE(take_within(raw_reader, raw));
+    ASSERT_TRUE(topics::decode(raw, got));
+    EXPECT_EQ(got.version(), 2U);
+    raw_parts.insert(got.part());
+  }
+  EXPECT_EQ(typed_parts, (std::set<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(raw_parts, typed_parts);
 }
 
 TEST(Raw, KeysLongerThanTheGeneratedCodeHasRoomForAreKeys) {
