@@ -33,10 +33,12 @@ class Work {
     std::string_view port;
     const Message* before = nullptr;
     const Message* after = nullptr;
+    const Partners* all = nullptr;  ///< of a `by_time` port
   };
   struct Result {
     Output* output = nullptr;
     bool publish = false;  ///< always true for outputs that give one message per input
+    std::function<bool(void*)> next = {};  ///< fills one message after the other
   };
 
   Work(const Message& message, std::string_view port, std::vector<Partner>& partners,
@@ -65,6 +67,20 @@ class Work {
             partner.after == nullptr ? nullptr : &typed<T>(*partner.after)};
   }
 
+  /// The messages of a `by_time` port from the newest that is not younger than the input on, up to
+  /// the oldest that is not older than `last` [ns], in the order of their stamps.
+  template <class T>
+  [[nodiscard]] std::vector<const T*> through(std::string_view port, std::int64_t last) const {
+    std::vector<const T*> found;
+    const Partner& partner = find(port);
+    if (partner.all == nullptr) return found;
+    for (const Message& message : partner.all->messages()) {
+      found.push_back(&typed<T>(message));
+      if (message.header->stamp() >= last) break;
+    }
+    return found;
+  }
+
   /// The message of the output of that type; its header is the node's business.
   template <class T>
   [[nodiscard]] T& output() {
@@ -75,6 +91,18 @@ class Work {
   void publish() {
     find(typeid(T)).publish = true;
   }
+  /// Of an output at its own rate: when the method returns, messages go out for as long as `fill`
+  /// fills one and returns true.
+  template <class T>
+  void publish_while(std::function<bool(T&)> fill) {
+    find(typeid(T)).next = [fill = std::move(fill)](void* message) {
+      return fill(*static_cast<T*>(message));
+    };
+  }
+  /// The frame of what goes out, by a name that outlives the method; without this that of the
+  /// input.
+  void set_frame(std::string_view frame) { frame_ = frame; }
+  [[nodiscard]] std::string_view frame() const { return frame_; }
   /// An entry of the heartbeat; replaces the value of that name.
   void set_diagnostic(std::string name, std::string value) {
     diagnostics_.emplace_back(std::move(name), std::move(value));
@@ -110,6 +138,7 @@ class Work {
   std::vector<Partner>& partners_;
   std::vector<Result>& results_;
   Diagnostics diagnostics_;
+  std::string_view frame_;
   std::size_t failures_ = 0;
 };
 
@@ -120,6 +149,9 @@ using State = std::vector<std::uint8_t>;
 struct Method {
   /// Handles one message. An exception counts it as lost in processing.
   std::function<void(Work&)> handle;
+  /// Up to which stamp [ns] it wants the messages of `by_time` ports; without this up to the stamp
+  /// of the message.
+  std::function<std::int64_t(const Message&)> last_stamp = {};
   /// Name and version of the form of its state, such as "line_map/1"; "" when it keeps none. What
   /// has the same goes on where the other one ended.
   std::string state_form = {};

@@ -10,6 +10,7 @@
 
 #include "services/runtime/node/clock.hpp"
 #include "services/topics/header.hpp"
+#include "services/topics/topic_types.hpp"
 
 namespace quoin::runtime {
 
@@ -51,6 +52,8 @@ void Node::open(std::vector<InputPart> inputs) {
     thread_.record.add_input(part.port.name, part.topic);
     joins_by_time_ = joins_by_time_ || part.port.join == Join::by_time;
     ports_.push_back(std::make_unique<Port>());
+    const topics::TopicType* const type = topics::find_topic_type(part.port.type);
+    ports_.back()->newest_counts = type != nullptr && type->qos == "state";
     ports_.back()->part = std::move(part);
   }
 }
@@ -214,6 +217,7 @@ bool Node::take_each(std::size_t index) {
 /// Counts a message; false when it is one that came before.
 bool Node::account(std::size_t index, const msg::Header& header) {
   Port& port = *ports_[index];
+  if (port.newest_counts) port.accounting.interrupt();
   std::uint64_t link_lost = 0;
   std::uint64_t upstream_lost = 0;
   for (const Loss& loss : port.accounting.receive(header)) {
@@ -232,11 +236,17 @@ bool Node::account(std::size_t index, const msg::Header& header) {
 /// Whether nothing more can come for it, or it has waited for long enough.
 bool Node::complete(const Pending& pending) const {
   if (!joins_by_time_ || draining_ || thread_.stopping() || succession_.asked()) return true;
-  const std::int64_t stamp = pending.message.header->stamp();
+  const std::int64_t stamp = last_stamp(pending.message);
   const bool all = std::all_of(ports_.begin(), ports_.end(), [&](const auto& port) {
     return port->part.port.join != Join::by_time || port->partners.after(stamp) != nullptr;
   });
   return all || thread_.now() >= pending.deadline;
+}
+
+std::int64_t Node::last_stamp(const Message& message) const {
+  const auto& of_method = exchange_.method().last_stamp;
+  const std::int64_t stamp = message.header->stamp();
+  return of_method ? std::max(stamp, of_method(message)) : stamp;
 }
 
 bool Node::handle_next(std::size_t index) {
@@ -264,8 +274,9 @@ bool Node::handle_next(std::size_t index) {
   return true;
 }
 
-void Node::join(const msg::Header& header, std::vector<Work::Partner>& partners) {
+void Node::join(const Message& message, std::vector<Work::Partner>& partners) {
   partners.clear();
+  const std::int64_t stamp = message.header->stamp();
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     Port& port = *ports_[i];
     if (port.each()) continue;
@@ -275,10 +286,11 @@ void Node::join(const msg::Header& header, std::vector<Work::Partner>& partners)
       partner.before = port.partners.latest();
       note_missing(i, partner.before == nullptr);
     } else {
-      port.partners.forget_before(header.stamp());
-      partner.before = port.partners.before(header.stamp());
-      partner.after = port.partners.after(header.stamp());
-      note_missing(i, partner.after == nullptr);
+      port.partners.forget_before(stamp);
+      partner.before = port.partners.before(stamp);
+      partner.after = port.partners.after(stamp);
+      partner.all = &port.partners;
+      note_missing(i, port.partners.after(last_stamp(message)) == nullptr);
     }
   }
 }
@@ -305,9 +317,10 @@ void Node::note_missing(std::size_t index, bool missing) {
 }
 
 void Node::handle(std::size_t index, const Pending& pending) {
-  join(*pending.message.header, joined_);
+  join(pending.message, joined_);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     results_[i].publish = outputs_[i].port.rate == Rate::per_input;
+    results_[i].next = nullptr;
   }
   Work work(pending.message, ports_[index]->part.port.name, joined_, results_);
   try {
@@ -318,23 +331,20 @@ void Node::handle(std::size_t index, const Pending& pending) {
     return;
   }
   for (const auto& [name, value] : work.diagnostics()) thread_.record.set_diagnostic(name, value);
-  publish(index, pending, work.failures());
+  publish(index, pending, work);
 }
 
-void Node::publish(std::size_t index, const Pending& pending, std::size_t failures) {
+void Node::publish(std::size_t index, const Pending& pending, const Work& work) {
   bool delivered = true;
   std::int64_t published = 0;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (!results_[i].publish) continue;
-    OutputPart& part = outputs_[i];
-    write_header(i, index, pending);
-    msg::StageTrace& trace = part.output->header().trace().back();
-    const bool written = deliver(*part.output, trace, part.lossless, thread_);
-    thread_.record.count_output(i, written);
-    if (written) ++next_index_[i];
-    ++next_number_[i];
-    delivered = delivered && written;
-    published = trace.published();
+    const auto& next = results_[i].next;
+    if (!next && !results_[i].publish) continue;
+    while (!next || next(outputs_[i].output->message())) {
+      published = write(i, index, pending, work.frame());
+      delivered = delivered && published > 0;
+      if (!next) break;
+    }
   }
   if (!delivered) {
     thread_.record.count_loss(LossCause::publishing);
@@ -342,12 +352,26 @@ void Node::publish(std::size_t index, const Pending& pending, std::size_t failur
   }
   const auto& first = pending.message.header->trace();
   thread_.record.count_result(first.empty() ? pending.received : first.front().published(),
-                              pending.received, published, failures);
+                              pending.received, published, work.failures());
+}
+
+std::int64_t Node::write(std::size_t output, std::size_t index, const Pending& pending,
+                         std::string_view frame) {
+  OutputPart& part = outputs_[output];
+  write_header(output, index, pending, frame);
+  msg::StageTrace& trace = part.output->header().trace().back();
+  const bool written = deliver(*part.output, trace, part.lossless, thread_);
+  thread_.record.count_output(output, written);
+  ++next_number_[output];
+  if (!written) return 0;
+  ++next_index_[output];
+  return trace.published();
 }
 
 /// A result per input goes by the name of what it was made from. What has a rate of its own is
 /// numbered by this node, as a source numbers its scans.
-void Node::write_header(std::size_t output, std::size_t index, const Pending& pending) {
+void Node::write_header(std::size_t output, std::size_t index, const Pending& pending,
+                        std::string_view frame) {
   const msg::Header& in = *pending.message.header;
   msg::Header& out = outputs_[output].output->header();
   if (outputs_[output].port.rate == Rate::per_input) {
@@ -359,6 +383,7 @@ void Node::write_header(std::size_t output, std::size_t index, const Pending& pe
     out.frame(in.frame());
     out.trace().clear();
   }
+  if (!frame.empty()) out.frame(std::string(frame));
   for (const Work::Partner& partner : joined_) {
     const Message* const after = partner.after == partner.before ? nullptr : partner.after;
     for (const Message* message : {partner.before, after}) {

@@ -97,6 +97,7 @@ class Node {
     std::uint64_t next = 0;                   // behind the last one that was handled
     bool missed = false;                      // the last result was made without it
     bool left = false;                        // what comes is for the successor
+    bool newest_counts = false;               // only: of what is overwritten nothing is lost
     [[nodiscard]] bool each() const { return part.port.join == Join::each; }
   };
 
@@ -108,9 +109,14 @@ class Node {
   [[nodiscard]] bool complete(const Pending& pending) const;
   bool handle_next(std::size_t index);
   void handle(std::size_t index, const Pending& pending);
-  void join(const msg::Header& header, std::vector<Work::Partner>& partners);
-  void publish(std::size_t index, const Pending& pending, std::size_t failures);
-  void write_header(std::size_t output, std::size_t index, const Pending& pending);
+  [[nodiscard]] std::int64_t last_stamp(const Message& message) const;
+  void join(const Message& message, std::vector<Work::Partner>& partners);
+  void publish(std::size_t index, const Pending& pending, const Work& work);
+  /// When it was published [ns]; 0 when it was not taken.
+  std::int64_t write(std::size_t output, std::size_t index, const Pending& pending,
+                     std::string_view frame);
+  void write_header(std::size_t output, std::size_t index, const Pending& pending,
+                    std::string_view frame);
   void note_missing(std::size_t index, bool missing);
   void look_whether_left();
 

@@ -87,6 +87,8 @@ class Partners {
   /// Only the newest will be asked for.
   void keep_latest();
   [[nodiscard]] std::size_t size() const { return messages_.size(); }
+  /// In the order of their stamps.
+  [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
 
  private:
   std::deque<Message> messages_;

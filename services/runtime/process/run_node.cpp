@@ -97,8 +97,7 @@ class NodeThread {
     const TopicQos qos = output_qos(*connection.writer, connection.output);
     return std::make_unique<LocalInput>(
         service_.process.topics.topic(connection.output.topic), label(service_.config),
-        QueueLimit{static_cast<std::size_t>(history_depth(qos.preset)),
-                   qos.preset == QosPreset::lossless},
+        QueueLimit{queue_depth(qos.preset), qos.preset == QosPreset::lossless},
         [this] { wait_set_.wake(); });
   }
 

@@ -271,6 +271,46 @@ TEST(Joins, ThePortsThatAreMissedAreAllNamed) {
               testing::AllOf(testing::Not(HasSubstr("'wheels'")), HasSubstr("'mapping'")));
 }
 
+TEST(Joins, GiveAMethodAllMessagesUpToTheStampThatItWants) {
+  Numbered<msg::Scan> front("front");
+  Numbered<msg::Lines> wheels("wheels");
+  const auto scans = std::make_shared<MemoryQueue<msg::Scan>>();
+  const auto odometry = std::make_shared<MemoryQueue<msg::Lines>>();
+  std::vector<std::int64_t> stamps;
+  const auto make = [&](const std::string&, const ParameterSettings&) {
+    const auto until = [](const Message& message) {
+      return message.header->stamp() + 50 * millisecond;
+    };
+    return Method{.handle =
+                      [&stamps, until](Work& work) {
+                        for (const msg::Lines* each :
+                             work.through<msg::Lines>("odometry", until(work.message()))) {
+                          stamps.push_back(stamp_of(each));
+                        }
+                      },
+                  .last_stamp = until};
+  };
+  Stage stage({.service = "deskewing", .join_timeout = milliseconds(200)}, make);
+  stage.node().open(inputs(input_part({"scan", "scan"}, "front", scans),
+                           input_part({"odometry", "lines", Join::by_time}, "wheels", odometry)));
+  for (const int stamp : {80, 95, 110, 130}) odometry->push(wheels.next_at(stamp * millisecond));
+  scans->push(front.next_at(100 * millisecond));
+  stage.run();
+  EXPECT_THAT(stamps, IsEmpty()) << "not yet up to 150";
+  for (const int stamp : {155, 170}) odometry->push(wheels.next_at(stamp * millisecond));
+  stage.run();
+  EXPECT_THAT(stamps, ElementsAre(95, 110, 130, 155));
+  EXPECT_EQ(stage.status().inputs()[1].unjoined(), 0U);
+  // Nothing more comes in time.
+  stamps.clear();
+  scans->push(front.next_at(160 * millisecond));
+  stage.run();
+  stage.clock().advance(milliseconds(250));
+  stage.run();
+  EXPECT_THAT(stamps, ElementsAre(155, 170));
+  EXPECT_EQ(stage.status().inputs()[1].unjoined(), 1U);
+}
+
 TEST(Joins, AnOptionalPortThatIsNotWiredGivesNothing) {
   Numbered<msg::Scan> front("front");
   const auto scans = std::make_shared<MemoryQueue<msg::Scan>>();

@@ -261,6 +261,32 @@ TEST_F(OwnRate, IsNumberedByTheNodeAndNamesWhatItWasMadeFrom) {
   EXPECT_EQ(header.trace()[0].index(), 1U);
 }
 
+TEST(OwnRateOutput, MayGiveSeveralMessagesAtATimeInAFrameOfItsOwn) {
+  const auto scans = std::make_shared<MemoryQueue<msg::Scan>>();
+  const auto results = std::make_shared<MemoryTopic<msg::Segments>>();
+  const auto map = std::make_shared<MemoryTopic<msg::Lines>>();
+  Stage stage({.service = "map"}, always([](Work& work) {
+                work.set_frame("hall");
+                work.publish_while<msg::Lines>([left = 3](msg::Lines& out) mutable {
+                  out.covariance_mode(std::to_string(left));
+                  return left-- > 0;
+                });
+              }),
+              outputs(output_part(results), output_part(map, Rate::own_rate)));
+  stage.node().open(inputs(input_part({"scan", "scan"}, "front", scans)));
+  Numbered<msg::Scan> front("front");
+  scans->push(front.next());
+  scans->push(front.next());
+  stage.run();
+  ASSERT_THAT(numbers(map->written), ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(map->written[1].covariance_mode(), "2");
+  EXPECT_EQ(map->written[3].covariance_mode(), "3");
+  EXPECT_EQ(map->written[4].header().frame(), "hall");
+  EXPECT_EQ(results->written.at(1).header().frame(), "hall");
+  EXPECT_EQ(stage.status().published(), 2U);
+  EXPECT_EQ(stage.status().outputs()[1].published(), 6U);
+}
+
 TEST_F(OwnRate, ItsReaderAccountsForItByItsOwnNumbers) {
   publish(9);
   ASSERT_EQ(map_->written.size(), 3U);
