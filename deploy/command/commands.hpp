@@ -39,6 +39,7 @@ struct Command {
 [[nodiscard]] Command add_explain(CLI::App& app);
 [[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
+[[nodiscard]] Command add_map(CLI::App& app);
 [[nodiscard]] Command add_record(CLI::App& app);
 [[nodiscard]] Command add_recording(CLI::App& app);
 [[nodiscard]] Command add_swap(CLI::App& app);
