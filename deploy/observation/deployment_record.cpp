@@ -160,10 +160,10 @@ void DeploymentRecord::receive(const msg::ServiceStatus& status) {
 }
 
 void DeploymentRecord::receive(std::size_t end, const msg::Header& header,
-                               const msg::Corners* corners) {
+                               const EndMessage& message) {
   const std::lock_guard lock(mutex_);
   EndWatch& watch = ends_.at(end);
-  if (watch.receive(header, corners)) note_published(watch, header);
+  if (watch.receive(header, message)) note_published(watch, header);
 }
 
 // The instance that wrote an entry of a trace; null when there are several and it has not reported

@@ -47,8 +47,8 @@ class DeploymentRecord {
 
   /// A heartbeat.
   void receive(const msg::ServiceStatus& status);
-  /// A message at an end; `corners` is the message itself when it is of that type.
-  void receive(std::size_t end, const msg::Header& header, const msg::Corners* corners = nullptr);
+  /// A message at an end.
+  void receive(std::size_t end, const msg::Header& header, const EndMessage& message = {});
   /// All processes have ended and nothing more will arrive: the accounting is final.
   void close();
 

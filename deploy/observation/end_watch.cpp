@@ -55,9 +55,34 @@ EndWatch::EndWatch(const Connection& end, std::string name, bool joined_late)
       service_(end.writer->name),
       type_(end.type),
       joined_late_(joined_late),
-      gives_corners_(end.type == "corners") {}
+      gives_corners_(end.type == "corners"),
+      newest_counts_(effective_qos("", end.type) == "state") {}
 
-bool EndWatch::receive(const msg::Header& header, const msg::Corners* corners) {
+namespace {
+
+void add(const msg::Pose& message, PoseFigures& figures) {
+  const bool tracking = message.status() == msg::PoseStatus::POSE_TRACKING;
+  const bool ambiguous = message.status() == msg::PoseStatus::POSE_AMBIGUOUS;
+  ++(tracking ? figures.tracking : ambiguous ? figures.ambiguous : figures.lost);
+  figures.status = tracking ? "tracking" : ambiguous ? "ambiguous" : "lost";
+  figures.x = message.pose().x();
+  figures.y = message.pose().y();
+  figures.theta = message.pose().theta();
+}
+
+MapFigures map_figures(const topics::ReceivedLineMap& map) {
+  MapFigures figures;
+  for (const MapLine& line : map.lines()) {
+    ++figures.walls;
+    figures.length += line.length();
+  }
+  return figures;
+}
+
+}  // namespace
+
+bool EndWatch::receive(const msg::Header& header, const EndMessage& message) {
+  if (newest_counts_) accounting_.interrupt();
   const std::uint64_t received = accounting_.received();
   accounting_.receive(header);
   if (accounting_.received() == received) return false;
@@ -67,7 +92,15 @@ bool EndWatch::receive(const msg::Header& header, const msg::Corners* corners) {
     latency_.add(
         static_cast<double>(header.trace().back().published() - source_trace_.published()) * 1e-9);
   }
-  if (gives_corners_ && corners != nullptr) corners_.add(*corners);
+  if (gives_corners_ && message.corners != nullptr) corners_.add(*message.corners);
+  if (message.pose != nullptr) {
+    if (!pose_) pose_.emplace();
+    add(*message.pose, *pose_);
+  }
+  if (message.map != nullptr) {
+    if (!map_) map_.emplace();
+    (void)map_->take(*message.map);
+  }
   return true;
 }
 
@@ -109,16 +142,20 @@ EndFigures EndWatch::figures(const std::vector<SourceInstance>& instances) const
   figures.name = name_;
   figures.type = type_;
   figures.scans_delivered = accounting_.received();
-  count(accounting_.lost_by_site(), figures.lost);
-  for (const SourceInstance& instance : instances) {
-    if (instance.type != source_type_) continue;
-    figures.lost.at_end += instance.ledger.unaccounted(sources(), ended_);
+  if (!newest_counts_) {
+    count(accounting_.lost_by_site(), figures.lost);
+    for (const SourceInstance& instance : instances) {
+      if (instance.type != source_type_) continue;
+      figures.lost.at_end += instance.ledger.unaccounted(sources(), ended_);
+    }
+    figures.lost.at_start += lost_at_start(instances);
   }
-  figures.lost.at_start += lost_at_start(instances);
   figures.scans_expected = figures.scans_delivered + figures.lost.sum();
   figures.latency_p50 = latency_.quantile(0.5);
   figures.latency_p99 = latency_.quantile(0.99);
   if (gives_corners_) figures.corners = corners_.figures(figures.scans_delivered);
+  figures.pose = pose_;
+  if (map_) figures.map = map_figures(*map_);
   return figures;
 }
 

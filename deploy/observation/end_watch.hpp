@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <idl/Common.h>
 #include <idl/Corners.h>
+#include <idl/LineMap.h>
+#include <idl/Pose.h>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "services/deployment/graph.hpp"
 #include "services/runtime/accounting/accounting.hpp"
 #include "services/runtime/accounting/source_ledger.hpp"
+#include "services/topics/line_map.hpp"
 
 namespace quoin::deploy {
 
@@ -37,6 +41,18 @@ class CornerStatistics {
   QuantileHistogram ellipse_area_;
 };
 
+/// The message that arrived at an end, where it is of a type that is looked into.
+struct EndMessage {
+  EndMessage() = default;
+  EndMessage(const msg::Corners* of_corners) : corners(of_corners) {}  // NOLINT: as what it is
+  EndMessage(const msg::Pose* of_pose) : pose(of_pose) {}              // NOLINT
+  EndMessage(const msg::LineMap* of_map) : map(of_map) {}              // NOLINT
+
+  const msg::Corners* corners = nullptr;
+  const msg::Pose* pose = nullptr;
+  const msg::LineMap* map = nullptr;
+};
+
 /// Accounts for each message of the source of an output that no service reads, whatever its type,
 /// from the headers of what arrives there.
 class EndWatch {
@@ -56,9 +72,8 @@ class EndWatch {
   /// Of the last message: the source's part.
   [[nodiscard]] const msg::StageTrace& source_trace() const { return source_trace_; }
 
-  /// A message arrived; `corners` is the message itself when it is of that type. False when it is a
-  /// repetition, which counts for nothing.
-  bool receive(const msg::Header& header, const msg::Corners* corners = nullptr);
+  /// A message arrived. False when it is a repetition, which counts for nothing.
+  bool receive(const msg::Header& header, const EndMessage& message = {});
 
   /// It is no part of the deployment. Should it come back, what happens meanwhile is for nobody.
   void interrupt();
@@ -88,6 +103,9 @@ class EndWatch {
   std::uint64_t first_number_ = 0;  // of the first message, unless nobody waited for it
   QuantileHistogram latency_;
   bool gives_corners_;
+  bool newest_counts_;  // of what is overwritten nothing is lost
+  std::optional<PoseFigures> pose_;
+  std::optional<topics::ReceivedLineMap> map_;
   CornerStatistics corners_;
 };
 

@@ -101,6 +101,23 @@ struct CornerFigures {
   double median_ellipse_area = 0.0;  ///< [m^2] one-sigma ellipse
 };
 
+/// Of an output that gives poses.
+struct PoseFigures {
+  std::uint64_t tracking = 0;
+  std::uint64_t ambiguous = 0;
+  std::uint64_t lost = 0;
+  std::string status;  ///< of the last one: tracking, ambiguous or lost
+  double x = 0.0;      ///< [m] of the last one
+  double y = 0.0;      ///< [m]
+  double theta = 0.0;  ///< [rad]
+};
+
+/// Of an output that gives a map.
+struct MapFigures {
+  std::uint64_t walls = 0;
+  double length = 0.0;  ///< [m] of all
+};
+
 /// What arrived at an output that no service reads, seen from outside.
 struct EndFigures {
   std::string name;                  ///< of the service, or service/type where it has several ends
@@ -111,6 +128,8 @@ struct EndFigures {
   double latency_p50 = 0.0;  ///< [s] from the publication by the source to that by this service
   double latency_p99 = 0.0;  ///< [s]
   std::optional<CornerFigures> corners = std::nullopt;
+  std::optional<PoseFigures> pose = std::nullopt;
+  std::optional<MapFigures> map = std::nullopt;
 };
 
 struct DeploymentFigures {

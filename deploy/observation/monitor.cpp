@@ -27,7 +27,7 @@ void Monitor::listen_to(std::size_t end, const Connection& connection) {
   const std::lock_guard lock(ends_mutex_);
   ends_.push_back(std::unique_ptr<End>(new End{
       end,
-      connection.type == "corners",
+      connection.type,
       {participant_, output.topic, type, runtime::output_qos(*connection.writer, output)}}));
   wait_set_.add(ends_.back()->reader);
 }
@@ -57,8 +57,11 @@ void Monitor::take_all() {
 void Monitor::take_all(End& end) {
   while (end.reader.take(raw_)) {
     if (!topics::read_header(raw_, header_)) continue;  // no message of ours
-    const bool corners = end.gives_corners && topics::decode(raw_, corners_);
-    record_.receive(end.number, header_, corners ? &corners_ : nullptr);
+    EndMessage message;
+    if (end.type == "corners" && topics::decode(raw_, corners_)) message = &corners_;
+    if (end.type == "pose" && topics::decode(raw_, pose_)) message = &pose_;
+    if (end.type == "line_map" && topics::decode(raw_, map_)) message = &map_;
+    record_.receive(end.number, header_, message);
   }
 }
 

@@ -44,7 +44,7 @@ class Monitor {
  private:
   struct End {
     std::size_t number;  // of the record
-    bool gives_corners;
+    std::string type;    // of the table of topic types
     runtime::RawReader reader;
   };
   void listen_to(std::size_t end, const Connection& connection);
@@ -65,6 +65,8 @@ class Monitor {
   topics::RawMessage raw_;
   msg::Header header_;
   msg::Corners corners_;
+  msg::Pose pose_;
+  msg::LineMap map_;
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

@@ -76,6 +76,18 @@ Json summary(const DeploymentFigures& figures) {
     json["type"] = end.type;
     json["latency_p50_us"] = rounded(end.latency_p50 * 1e6);
     json["latency_p99_us"] = rounded(end.latency_p99 * 1e6);
+    if (end.pose) {
+      json["pose"] = {{"tracking", end.pose->tracking},
+                      {"ambiguous", end.pose->ambiguous},
+                      {"lost", end.pose->lost},
+                      {"status", end.pose->status},
+                      {"x", end.pose->x},
+                      {"y", end.pose->y},
+                      {"theta", end.pose->theta}};
+    }
+    if (end.map) {
+      json["map"] = {{"walls", end.map->walls}, {"length_m", rounded(end.map->length)}};
+    }
     if (end.corners) corners[end.name] = corner_summary(end);
   }
   return {{"deployment", figures.deployment},

@@ -68,6 +68,19 @@ std::string fixed(double value, int digits) {
   return buffer.data();
 }
 
+namespace {
+
+std::string place_text(const PoseFigures& pose) {
+  return pose.status + " at (" + fixed(pose.x, 2) + ", " + fixed(pose.y, 2) + ") m " +
+         fixed(pose.theta * 57.29577951308232, 1) + " deg";
+}
+
+std::string map_text(const MapFigures& map) {
+  return "map of " + std::to_string(map.walls) + " walls, " + fixed(map.length, 1) + " m";
+}
+
+}  // namespace
+
 std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size_t width) {
   std::vector<std::string> lines;
   // Short heads: the table is to fit into 120 columns.
@@ -87,6 +100,14 @@ std::vector<std::string> table_lines(const DeploymentFigures& figures, std::size
   rows.assign({std::move(head)});
   for (const EndFigures& end : figures.ends) rows.push_back(end_row(end, with_corners));
   append_table(rows, 2, width, lines);
+  for (const EndFigures& end : figures.ends) {
+    if (end.pose) {
+      lines.push_back(end.name + ": " + std::to_string(end.pose->tracking) + " tracking, " +
+                      std::to_string(end.pose->ambiguous) + " ambiguous, " +
+                      std::to_string(end.pose->lost) + " lost; " + place_text(*end.pose));
+    }
+    if (end.map) lines.push_back(end.name + ": " + map_text(*end.map));
+  }
   return lines;
 }
 
@@ -113,6 +134,8 @@ std::string progress_line(const DeploymentFigures& figures) {
       line += ", " + fixed(end.corners->mean_corners, 1) + " corners, sigma " +
               fixed(end.corners->median_sigma * 1e3, 2) + " mm";
     }
+    if (end.pose) line += ", " + place_text(*end.pose);
+    if (end.map) line += ", " + map_text(*end.map);
   }
   const bool arriving = std::any_of(figures.ends.begin(), figures.ends.end(),
                                     [](const EndFigures& end) { return end.scans_delivered > 0; });

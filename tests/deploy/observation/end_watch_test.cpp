@@ -91,6 +91,42 @@ TEST_F(EndOfChain, ARepetitionCountsForNothing) {
   EXPECT_EQ(figures.corners->mean_corners, 3.0);
 }
 
+TEST(EndOfMapping, SumsUpPosesAndTheNewestMap) {
+  ServiceConfig slam;
+  slam.name = "slam";
+  EndWatch poses({.type = "pose", .writer = &slam}, "slam/pose", false);
+  EndWatch maps({.type = "line_map", .writer = &slam}, "slam/line_map", false);
+  Pipeline pipeline({"front", "slam"});
+  msg::Pose pose;
+  for (const auto status : {msg::PoseStatus::POSE_TRACKING, msg::PoseStatus::POSE_TRACKING,
+                            msg::PoseStatus::POSE_AMBIGUOUS, msg::PoseStatus::POSE_LOST}) {
+    pose.status(status);
+    pose.pose().x(pose.pose().x() + 1.0);
+    EXPECT_TRUE(poses.receive(pipeline.scan(), &pose));
+  }
+  const PoseFigures figures = poses.figures({}).pose.value();
+  EXPECT_EQ(figures.tracking, 2U);
+  EXPECT_EQ(figures.ambiguous, 1U);
+  EXPECT_EQ(figures.lost, 1U);
+  EXPECT_EQ(figures.status, "lost");
+  EXPECT_EQ(figures.x, 4.0);
+
+  msg::LineMap map;
+  map.parts(1);
+  map.lines().resize(2);
+  map.lines()[0].end().x(3.0);
+  map.lines()[1].id(1);
+  map.lines()[1].end().y(2.0);
+  for (int i = 0; i < 3; ++i) {
+    (void)pipeline.scan();  // is overwritten by the next one
+    EXPECT_TRUE(maps.receive(pipeline.scan(), &map));
+  }
+  const EndFigures end = maps.figures({});
+  EXPECT_EQ(end.lost.sum(), 0U);
+  EXPECT_EQ(end.map->walls, 2U);
+  EXPECT_EQ(end.map->length, 5.0);
+}
+
 TEST_F(EndOfChain, ScansBeforeTheFirstThatArrivesAreLostAtTheStart) {
   for (int i = 0; i < 4; ++i) (void)pipeline_.scan(2);
   watch_.receive(pipeline_.scan());
