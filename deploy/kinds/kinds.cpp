@@ -9,7 +9,10 @@
 #include "sensor_bridge/simulated/kind.hpp"
 #include "services/circle_fitting/kind.hpp"
 #include "services/corner_estimation/kind.hpp"
+#include "services/deskewing/kind.hpp"
 #include "services/line_fitting/kind.hpp"
+#include "services/localization/kind.hpp"
+#include "services/mapping/kind.hpp"
 #include "services/recorder/kind.hpp"
 #include "services/segmentation/kind.hpp"
 #include "services/viewer/kind.hpp"
@@ -21,9 +24,9 @@ const KindList& kinds() {
   static const KindList all{
       {&sensor_bridge::simulated_kind(), &sensor_bridge::replay_kind(),
        &sensor_bridge::rplidar::rplidar_kind(), &sensor_bridge::rplidar::rplidar_emulator_kind(),
-       &sensor_bridge::ros2_scan_kind(), &segmentation_kind(), &line_fitting_kind(),
-       &corner_estimation_kind(), &circle_fitting_kind(), &viewer_kind(), &recorder_kind(),
-       &external_kind()}};
+       &sensor_bridge::ros2_scan_kind(), &deskewing_kind(), &segmentation_kind(),
+       &line_fitting_kind(), &corner_estimation_kind(), &circle_fitting_kind(), &mapping_kind(),
+       &localization_kind(), &viewer_kind(), &recorder_kind(), &external_kind()}};
   return all;
 }
 

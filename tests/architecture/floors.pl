@@ -23,6 +23,7 @@ my @floors = (
     [ 'sensor_bridge/message_files/',    2 ],
     [ 'sensor_bridge/simulated/world_file', 2 ],
     [ 'services/topics/',                3 ],
+    [ 'services/maps/',                  3 ],
     [ 'sensor_bridge/recordings/',       4 ],
     [ 'services/deployment/',            4 ],
     [ 'services/keys/',                  5 ],
@@ -46,8 +47,16 @@ my @floors = (
     [ 'deploy/command/',                 16 ],
 );
 # How many files the main file of a service may reach.
+<<<<<<< HEAD
 # The viewer runs all methods to explain what they did.
 my %most_files = ( 'services/segmentation/main.cpp' => 135, 'services/viewer/main.cpp' => 195 );
+=======
+my %most_files = (
+    'services/localization/main.cpp' => 130,
+    'services/mapping/main.cpp'      => 130,
+    'services/segmentation/main.cpp' => 135,
+);
+>>>>>>> 8ba369be (Map, localize and deskew as services)
 my $most_files_of_others = 120;
 
 sub floor_of {

@@ -24,8 +24,9 @@ TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
   for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
   EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "ros2_scan",
-                                 "segmentation", "line_fitting", "corner_estimation",
-                                 "circle_fitting", "viewer", "recorder", "external"));
+                                 "deskewing", "segmentation", "line_fitting", "corner_estimation",
+                                 "circle_fitting", "mapping", "localization", "viewer", "recorder",
+                                 "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,17 +25,17 @@ std::vector<std::filesystem::path> examples() {
 
 class Examples : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(Examples, AreValidAndEndInCornersOrCircles) {
+TEST_P(Examples, AreValidAndEndInResults) {
   const Deployment deployment = deploy::load_deployment(GetParam());
   ASSERT_FALSE(deployment.services.empty());
   EXPECT_TRUE(deployment.services.front().inputs.empty());
   // Observers stand behind all others.
   const auto last = std::find_if(deployment.services.rbegin(), deployment.services.rend(),
                                  [](const auto& each) { return !each.info->observer; });
-  EXPECT_NE(last->output("corners"), nullptr);
+  EXPECT_TRUE(last->output("corners") != nullptr || last->output("pose") != nullptr);
+  const std::set<std::string> results{"corners", "circles", "pose", "line_map"};
   for (const Connection& end : Graph(deployment).ends()) {
-    EXPECT_TRUE(end.type == "corners" || end.type == "circles")
-        << end.writer->name << " is read by nobody";
+    EXPECT_TRUE(results.contains(end.type)) << end.writer->name << " is read by nobody";
   }
 }
 
