@@ -47,16 +47,13 @@ my @floors = (
     [ 'deploy/command/',                 16 ],
 );
 # How many files the main file of a service may reach.
-<<<<<<< HEAD
 # The viewer runs all methods to explain what they did.
-my %most_files = ( 'services/segmentation/main.cpp' => 135, 'services/viewer/main.cpp' => 195 );
-=======
 my %most_files = (
     'services/localization/main.cpp' => 130,
     'services/mapping/main.cpp'      => 130,
     'services/segmentation/main.cpp' => 135,
+    'services/viewer/main.cpp'       => 195,
 );
->>>>>>> 8ba369be (Map, localize and deskew as services)
 my $most_files_of_others = 120;
 
 sub floor_of {
