@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <idl/LineMap.h>
 #include <utility>
 
 #include "services/topics/topic_types.hpp"
@@ -21,6 +22,12 @@ std::int64_t system_now() {
 /// Messages as they are sent (CDR) with their IDL.
 Channel cdr_channel(const std::string& topic, std::string_view dds_type, std::string_view idl) {
   return {0, topic, "cdr", std::string(dds_type), "omgidl", std::string(topics::idl_text(idl))};
+}
+
+/// A map comes in parts, of each of which the newest counts.
+std::uint64_t key_of(const std::string& type, const topics::RawMessage& raw) {
+  msg::LineMap map;
+  return type == "line_map" && topics::decode(raw, map) ? map.part() : 0;
 }
 
 }  // namespace
@@ -53,7 +60,7 @@ void LiveView::publish(const std::string& topic, const std::string& type,
                        const msg::Header& header) {
   const Payload payload{std::move(owner), raw.cdr, system_now()};
   if (type == "scan") explainer_.add(topic, header.stamp(), payload);
-  hub_.publish(channel_of(topic, type), payload);
+  hub_.publish(channel_of(topic, type), payload, key_of(type, raw));
   views_.publish(topic, raw.cdr, header.frame(), header.stamp());
 }
 

@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import zlib from 'node:zlib';
 import { chromium } from 'playwright-core';
 
-const [url, file, count = '20'] = process.argv.slice(2);
+const [url, file, count = '14'] = process.argv.slice(2);
 const pause = 300; // [ms] between frames
 
 // The chunks of a PNG file: {type, data}.
@@ -75,17 +75,19 @@ const context = await chromium.launchPersistentContext(profile, {
   headless: true,
   args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync'],
-  viewport: { width: 960, height: 520 },
+  viewport: { width: 980, height: 430 },
   colorScheme: 'light',
 });
 const page = await context.newPage();
 await page.goto(url);
 await page.waitForFunction(() => window.quoin.items().some((item) => item.kind === 'corner'), null, { timeout: 60000 });
+await page.click('#wider');
+await page.locator('#tools').evaluate((tools) => { tools.hidden = true; });
 await page.waitForTimeout(500);
 const frames = [];
 for (let i = 0; i < Number(count); ++i) {
   const began = Date.now();
-  frames.push(await page.screenshot());
+  frames.push(await page.locator('#stage').screenshot());
   await page.waitForTimeout(Math.max(0, pause - (Date.now() - began)));
 }
 writeFileSync(file, animated(frames));

@@ -98,6 +98,16 @@ function poseAt(topic, stamp) {
   if (!pose || !Number.isFinite(pose.x)) return null;
   return { x: pose.x, y: pose.y, yaw: pose.theta, xx: pose.covariance_xx, xy: pose.covariance_xy, yy: pose.covariance_yy, value };
 }
+// Where the sensor is: in the map, or by its wheels where nobody knows more and that is shown.
+function sensorPose(stamp) {
+  if (stamp === null) return null;
+  const known = [...layers.of('pose'), ...layers.of('odometry').filter((layer) => layer.visible)];
+  for (const layer of known) {
+    const pose = poseAt(layer.topic, stamp);
+    if (pose) return { layer, pose };
+  }
+  return null;
+}
 function trailOf(topic, stamp) {
   const result = [];
   for (const entry of topic.entries) {
@@ -119,7 +129,7 @@ function draw(painter, view) {
   picture.grid();
   const stamp = shownStamp();
   if (stamp === null) return picture;
-  const pose = layers.of('pose').map((layer) => ({ layer, pose: poseAt(layer.topic, stamp) })).find((each) => each.pose);
+  const pose = sensorPose(stamp);
   for (const layer of shown.filter((each) => each.kind === 'map')) picture.map(layer, { lines: scene.mapLines(layer.topic) });
   for (const layer of shown.filter((each) => each.kind === 'odometry')) picture.trail(trailOf(layer.topic, stamp), colors.faint, [3, 4]);
   for (const layer of shown.filter((each) => each.kind === 'pose')) picture.trail(trailOf(layer.topic, stamp), colors.sensor);
@@ -154,8 +164,7 @@ function fit() {
     // Where things are with a metre to a pixel about the origin.
     const probe = new Picture(new CanvasPainter(document.createElement('canvas').getContext('2d')),
       { width: 0, height: 0, x: 0, y: 0, scale: 1 }, colors, 1);
-    const pose = layers.of('pose').map((layer) => poseAt(layer.topic, stamp)).find((each) => each);
-    probe.usePose(pose ?? { x: 0, y: 0, yaw: 0 });
+    probe.usePose(sensorPose(stamp)?.pose ?? { x: 0, y: 0, yaw: 0 });
     const point = (x, y) => { const [sx, sy] = probe.sensed(x, y); include(sx, -sy); };
     for (const topic of scene.list('scan')) {
       const scan = scene.valueAt(topic, stamp);
@@ -209,7 +218,7 @@ function render() {
   if (state.ellipseScale === 0 && stamp !== null && state.fitted) chooseEllipseScale(stamp);
   const { view } = state;
   if (state.follow && stamp !== null) {
-    const pose = layers.of('pose').map((layer) => poseAt(layer.topic, stamp)).find((each) => each);
+    const pose = sensorPose(stamp)?.pose;
     view.x = pose?.x ?? 0;
     view.y = pose?.y ?? 0;
   }
@@ -421,7 +430,7 @@ function click(x, y, pointer) {
 async function explain(x, y) {
   const view = state.view;
   const stamp = shownStamp();
-  const pose = layers.of('pose').map((layer) => poseAt(layer.topic, stamp)).find((each) => each) ?? { x: 0, y: 0, yaw: 0 };
+  const pose = sensorPose(stamp)?.pose ?? { x: 0, y: 0, yaw: 0 };
   const dx = view.x + (x - view.width / 2) / view.scale - pose.x;
   const dy = view.y - (y - view.height / 2) / view.scale - pose.y;
   const place = { x: Math.cos(pose.yaw) * dx + Math.sin(pose.yaw) * dy, y: Math.cos(pose.yaw) * dy - Math.sin(pose.yaw) * dx };
