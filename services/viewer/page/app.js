@@ -101,7 +101,9 @@ function poseAt(topic, stamp) {
 // Where the sensor is: in the map, or by its wheels where nobody knows more and that is shown.
 function sensorPose(stamp) {
   if (stamp === null) return null;
-  const known = [...layers.of('pose'), ...layers.of('odometry').filter((layer) => layer.visible)];
+  // A source gives the truth of a simulation; what was made of scans goes with the map.
+  const stages = (layer) => layer.topic.entries.at(-1)?.header.trace.length ?? 0;
+  const known = [...layers.of('pose').sort((a, b) => stages(b) - stages(a)), ...layers.of('odometry').filter((layer) => layer.visible)];
   for (const layer of known) {
     const pose = poseAt(layer.topic, stamp);
     if (pose) return { layer, pose };
