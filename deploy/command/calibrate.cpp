@@ -92,7 +92,10 @@ void read_file(const CalibrateOptions& options, Signals& signals, Progress& prog
       if (scan.first_of_file || !first) first = scan.stamp;
       if (*scan.stamp - *first > options.duration) return;
     }
-    sensor_bridge::apply_range_limits(parameters.range_min, parameters.range_max, scan.ranges);
+    for (const std::string& note : scan.notes) {
+      progress.clear();
+      std::cerr << note << '\n';
+    }
     scans.add({scan.bearings, scan.ranges});
     progress.show(std::to_string(scans.added()) + " scans read");
     if (signals.take() > 0) return;
@@ -269,8 +272,8 @@ Command add_calibrate(CLI::App& app) {
   line->add_option("-o,--output", options->output, "File for the sensor block (YAML)");
   line->add_option("--plot", options->plot, "Page (HTML) with the noise over range and incidence");
   line->add_option("--field-of-view", options->recording.field_of_view,
-                   "Swept angle [rad] of CARMEN scans")
-      ->check(CLI::Range(0.001, 6.2832))
+                   "Swept angle [rad] of FLASER lines; 0: 180 deg")
+      ->check(CLI::Range(0.0, 6.2832))
       ->capture_default_str();
   line->add_option("--range-max", options->recording.range_max,
                    "This range [m] of a recording, and longer ones, are no return")

@@ -3,11 +3,15 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "sensor_bridge/recordings/scan_files.hpp"
+#include "sensor_bridge/replay/kind.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
@@ -78,9 +82,30 @@ void print(const Deployment& deployment) {
   }
 }
 
+/// What `kind: replay` is to play must be there. Throws DeploymentError.
+void check_recordings(const Deployment& deployment) {
+  std::vector<std::string> errors;
+  for (const ServiceConfig& service : deployment.services) {
+    if (service.info != &sensor_bridge::replay_kind()) continue;
+    try {
+      sensor_bridge::ScanFiles files = sensor_bridge::open_scan_files(
+          make_parameters<sensor_bridge::ReplayParameters>(service.parameters),
+          deployment.file.parent_path());
+      sensor_bridge::RecordedScan scan;
+      (void)files.next(scan);
+    } catch (const std::exception& error) {
+      errors.push_back(deployment.file.string() + ":" + std::to_string(service.position.line) +
+                       ":" + std::to_string(service.position.column) + ": service '" +
+                       service.name + "': " + error.what());
+    }
+  }
+  if (!errors.empty()) throw DeploymentError(std::move(errors));
+}
+
 int run(const CheckOptions& options) {
   try {
     const Deployment deployment = load_deployment(options.file);
+    check_recordings(deployment);
     if (options.json) {
       std::cout << describe(deployment).dump(2) << '\n';
     } else {

@@ -83,6 +83,9 @@ int run(EvaluateOptions options) {
   options.evaluation.version = QUOIN_VERSION;
   try {
     const EvaluationSetup setup = prepare(options.evaluation);
+    for (const ScanFile& file : setup.scan_files) {
+      for (const std::string& note : file.notes) std::cerr << file.name << ": " << note << '\n';
+    }
     const OutputFolder folder(options.output);
     const EvaluationReport report = evaluate_with_progress(setup, options.quiet);
     write_report(report, folder.path());

@@ -42,11 +42,11 @@ std::vector<ScanFile> read_scan_files(const std::vector<std::string>& paths) {
   std::vector<ScanFile> files;
   for (const std::string& path : paths) {
     for (const std::filesystem::path& file : sensor_bridge::list_scan_files(path)) {
-      ScanFile result{file.string(), {}};
-      sensor_bridge::ScanFiles reader(file, defaults.format, defaults.field_of_view);
+      ScanFile result{file.string(), {}, {}};
+      sensor_bridge::ScanFiles reader(file, defaults);
       sensor_bridge::RecordedScan scan;
       while (reader.next(scan)) {
-        sensor_bridge::apply_range_limits(defaults.range_min, defaults.range_max, scan.ranges);
+        result.notes.insert(scan.notes.begin(), scan.notes.end());
         result.scans.push_back(scan);
       }
       files.push_back(std::move(result));

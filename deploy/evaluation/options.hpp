@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -42,6 +43,7 @@ struct EvaluationOptions {
 struct ScanFile {
   std::string name;
   std::vector<sensor_bridge::RecordedScan> scans;
+  std::set<std::string> notes;  ///< what was guessed of them, for people
 };
 
 /// The options with everything in them looked up and read.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/message_files/message_file.hpp"
 
+#include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/message_files/binary_file.hpp"
 #include "sensor_bridge/message_files/mcap_reader.hpp"
 #include "sensor_bridge/message_files/rosbag.hpp"
@@ -57,7 +58,8 @@ class McapFile final : public MessageFile {
 
 void MessageFile::fail(const FileMessage& message, const std::string& what) const {
   throw ScanFileError(name_ + ": " + place_ + " " + std::to_string(message.place) +
-                      (message.topic == nullptr ? "" : ": " + message.topic->name) + ": " + what);
+                      (message.topic == nullptr ? "" : ": " + printable(message.topic->name)) +
+                      ": " + what);
 }
 
 std::optional<MessageFileKind> message_file_kind(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 #include "sensor_bridge/recordings/carmen.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -15,10 +16,6 @@ namespace quoin::sensor_bridge {
 namespace {
 
 constexpr std::string_view blank = " \t";
-
-// CARMEN logger: FLASER n r_1 .. r_n x y theta odom_x odom_y odom_theta ipc_timestamp ipc_hostname
-// logger_timestamp.
-constexpr std::size_t poses_and_stamps = 9;
 
 /// Words of one line, with their positions for messages.
 class Words {
@@ -33,18 +30,45 @@ class Words {
     return !word.empty();
   }
 
+  /// How errors call the line: FLASER, and how many ranges it announces.
+  void begin(std::string_view name) { name_ = name; }
+  void announce(std::size_t ranges) { announced_ = ranges; }
+
   /// The next word as a number; NaN and infinity count.
-  double number(std::size_t ranges, std::size_t values_read) {
+  double number() {
     std::string_view word;
     if (!next(word)) {
-      fail("FLASER announces " + std::to_string(ranges) + " ranges and " +
-           std::to_string(poses_and_stamps) + " values after them, but the line ends after " +
-           std::to_string(values_read) + " of these " + std::to_string(ranges + poses_and_stamps) +
-           "; the file is cut off or damaged here");
+      fail(name_ +
+           (announced_ ? " announces " + std::to_string(*announced_) + " ranges, but the"
+                       : ": the") +
+           " line ends early; the file is cut off or damaged here");
     }
     const std::optional<double> value = parse_number<double>(word);
     if (!value) fail(excerpt(word) + " is not a number");
     return *value;
+  }
+
+  std::size_t count(const char* what, std::size_t most) {
+    std::string_view word;
+    if (!next(word)) {
+      fail(name_ + " without a number of " + what + "; the file is cut off here");
+    }
+    const std::optional<std::size_t> count = parse_number<std::size_t>(word);
+    if (!count) fail(excerpt(word) + " is not a number of " + what);
+    if (*count > most) {
+      fail(name_ + " announces " + std::to_string(*count) + " " + what + "; at most " +
+           std::to_string(most) + " are possible");
+    }
+    return *count;
+  }
+
+  void finish() {
+    std::string_view surplus;
+    if (next(surplus)) {
+      fail(excerpt(surplus) + " is one value too many for a " + name_ + " line" +
+           (announced_ ? " of " + std::to_string(*announced_) + " ranges; is their number right?"
+                       : ""));
+    }
   }
 
   [[noreturn]] void fail(const std::string& what) const { lines_.fail(offset_, what); }
@@ -52,70 +76,107 @@ class Words {
  private:
   const LineReader& lines_;
   std::string_view line_;
+  std::string name_;
+  std::optional<std::size_t> announced_;
   std::size_t offset_ = 0;  // of the word last read
   std::size_t end_ = 0;     // behind it
 };
-
-std::size_t range_count(Words& words) {
-  std::string_view word;
-  if (!words.next(word)) words.fail("FLASER without a number of ranges; the file is cut off here");
-  const std::optional<std::size_t> count = parse_number<std::size_t>(word);
-  if (!count) words.fail(excerpt(word) + " is not a number of ranges");
-  if (*count == 0 || *count > RecordedScan::max_points) {
-    words.fail("FLASER announces " + std::to_string(*count) + " ranges; 1 to " +
-               std::to_string(RecordedScan::max_points) + " are possible");
-  }
-  return *count;
-}
 
 std::optional<Pose2> finite(const Pose2& pose) {
   if (std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta)) return pose;
   return std::nullopt;
 }
 
-void parse_flaser(Words& words, double field_of_view, RecordedScan& scan) {
-  scan.clear();
-  const std::size_t count = range_count(words);
+Pose2 read_pose(Words& words) {
+  const double x = words.number();
+  const double y = words.number();
+  return {x, y, words.number()};
+}
+
+void read_ranges(Words& words, RecordedScan& scan) {
+  const std::size_t count = words.count("ranges", RecordedScan::max_points);
+  words.announce(count);
   for (std::size_t i = 0; i < count; ++i) {
-    scan.ranges.push_back(static_cast<float>(words.number(count, i)));
+    scan.ranges.push_back(static_cast<float>(words.number()));
   }
-  fill_bearings(count, field_of_view, scan.bearings);
-  double values[7] = {};
-  for (std::size_t i = 0; i < 7; ++i) values[i] = words.number(count, count + i);
-  scan.pose = finite({values[0], values[1], values[2]});
-  if (const auto odometry = finite({values[3], values[4], values[5]})) {
+}
+
+/// ipc_timestamp ipc_hostname logger_timestamp
+void read_stamps(Words& words, RecordedScan& scan) {
+  const double stamp = words.number();
+  if (std::isfinite(stamp)) scan.stamp = stamp;
+  std::string_view host;
+  if (!words.next(host)) (void)words.number();  // says what is missing
+  (void)words.number();
+  words.finish();
+}
+
+// CARMEN logger, logger/readlog.c of its sources, all lines begin with their name.
+// FLASER n r_1 .. r_n x y theta odom_x odom_y odom_theta ipc_timestamp ipc_hostname
+// logger_timestamp
+std::string parse_flaser(Words& words, const ScanGeometry& geometry, RecordedScan& scan) {
+  read_ranges(words, scan);
+  std::string note = fill_bearings(scan.ranges.size(), geometry, scan.bearings);
+  scan.pose = finite(read_pose(words));
+  if (const auto odometry = finite(read_pose(words))) {
     scan.odometry.push_back({std::nullopt, *odometry});
   }
-  if (std::isfinite(values[6])) scan.stamp = values[6];
+  read_stamps(words, scan);
+  return note;
+}
 
-  std::string_view host;
-  if (!words.next(host)) static_cast<void>(words.number(count, count + 7));  // says what is missing
-  static_cast<void>(words.number(count, count + 8));
-  std::string_view surplus;
-  if (words.next(surplus)) {
-    words.fail(excerpt(surplus) + " is one value too many for a FLASER line of " +
-               std::to_string(count) + " ranges; is their number right?");
+// RAWLASER1 laser_type start_angle field_of_view angular_resolution maximum_range accuracy
+// remission_mode n r_1 .. r_n m remission_1 .. remission_m ipc_timestamp ipc_hostname
+// logger_timestamp
+// ROBOTLASER1 has, before the stamps: laser_pose (x y theta) robot_pose (x y theta) tv rv
+// forward_safety_dist side_safety_dist turn_axis
+void parse_laser(Words& words, bool of_robot, RecordedScan& scan) {
+  (void)words.number();  // type
+  const double start = words.number();
+  const double field_of_view = words.number();
+  double step = words.number();
+  const double longest = words.number();
+  (void)words.number();  // accuracy
+  (void)words.number();  // remission mode
+  read_ranges(words, scan);
+  const auto rays = static_cast<double>(scan.ranges.size());
+  if (!std::isfinite(start) || !std::isfinite(field_of_view)) words.fail("no finite start angle");
+  if (!(step > 0.0) && rays > 1.0) step = field_of_view / (rays - 1.0);  // some wrote 0
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    scan.bearings.push_back(static_cast<float>(start + static_cast<double>(i) * step));
   }
+  if (longest > 0.0 && std::isfinite(longest)) scan.range_max = longest;
+  const std::size_t remissions = words.count("remission values", RecordedScan::max_points);
+  for (std::size_t i = 0; i < remissions; ++i) (void)words.number();
+  if (of_robot) {
+    scan.pose = finite(read_pose(words));
+    if (const auto odometry = finite(read_pose(words))) {
+      scan.odometry.push_back({std::nullopt, *odometry});
+    }
+    for (int i = 0; i < 5; ++i) (void)words.number();
+  }
+  read_stamps(words, scan);
 }
 
 }  // namespace
 
-void fill_bearings(std::size_t count, double field_of_view, std::vector<float>& bearings) {
-  const std::size_t steps = count % 2 == 0 || count == 1 ? count : count - 1;
-  const double step = field_of_view / static_cast<double>(steps);
-  bearings.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    bearings.push_back(static_cast<float>(-0.5 * field_of_view + static_cast<double>(i) * step));
-  }
-}
-
-bool read_carmen_scan(LineReader& lines, double field_of_view, RecordedScan& scan) {
+bool CarmenScans::operator()(LineReader& lines, RecordedScan& scan) {
   std::string_view line;
   while (lines.next(line)) {
     Words words(lines, line);
-    std::string_view message;
-    if (words.next(message) && message == "FLASER") {
-      parse_flaser(words, field_of_view, scan);
+    std::string_view name;
+    if (!words.next(name)) continue;
+    words.begin(name);
+    if (name == "FLASER") {
+      scan.clear();
+      if (std::string note = parse_flaser(words, geometry_, scan); !note.empty()) {
+        scan.notes.push_back(std::move(note));
+      }
+      return true;
+    }
+    if (name == "ROBOTLASER1" || name == "RAWLASER1") {
+      scan.clear();
+      parse_laser(words, name == "ROBOTLASER1", scan);
       return true;
     }
   }

@@ -4,20 +4,22 @@
 
 #include "sensor_bridge/recordings/line_reader.hpp"
 #include "sensor_bridge/recordings/recorded_scan.hpp"
+#include "sensor_bridge/recordings/scan_geometry.hpp"
 
 namespace quoin::sensor_bridge {
 
-/// Reads on to the next FLASER line of a CARMEN text log; false at the end of the file. Other
-/// messages and comments are skipped, the rear laser (RLASER) too. Throws ScanFileError, after
-/// which the reader is of no more use.
-///
-/// The log does not hold the bearings: they run from minus half to plus half of `field_of_view`
-/// [rad].
-bool read_carmen_scan(LineReader& lines, double field_of_view, RecordedScan& scan);
+/// Scans of the front laser in a CARMEN text log: FLASER lines, which hold no bearings, and
+/// ROBOTLASER1 and RAWLASER1 lines, which do. Other messages and comments are skipped, other
+/// lasers, too. Throws ScanFileError, after which the reader is of no more use.
+class CarmenScans {
+ public:
+  explicit CarmenScans(const ScanGeometry& geometry) : geometry_(geometry) {}
 
-/// Bearings [rad] of `count` rays over a swept angle that is centred on the x axis. An even number
-/// of rays is a half-open sweep (180 rays at 1 degree, 360 at 0.5), an odd number has a ray at both
-/// ends (181, 361): so the SICK LMS delivers them and CARMEN wrote them down.
-void fill_bearings(std::size_t count, double field_of_view, std::vector<float>& bearings);
+  /// Reads on to the next scan; false at the end of the file. One of no rays is a scan.
+  bool operator()(LineReader& lines, RecordedScan& scan);
+
+ private:
+  ScanGeometry geometry_;
+};
 
 }  // namespace quoin::sensor_bridge

@@ -8,12 +8,21 @@ namespace quoin::sensor_bridge {
 
 void RecordedScan::clear() {
   stamp.reset();
+  epoch_stamp.reset();
   bearings.clear();
   ranges.clear();
   time_offsets.clear();
+  qualities.clear();
+  duration.reset();
+  range_min.reset();
+  range_max.reset();
+  frame.clear();
+  sensor.reset();
+  sensor_estimated = false;
   pose.reset();
   odometry.clear();
   first_of_file = false;
+  notes.clear();
 }
 
 void apply_range_limits(double range_min, double range_max, std::vector<float>& ranges) {

@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
-#include "sensor_bridge/recordings/carmen.hpp"
 #include "sensor_bridge/recordings/json_text.hpp"
 
 namespace quoin::sensor_bridge {
@@ -16,8 +17,8 @@ namespace {
 
 class ScanJson final : public ScanReader {
  public:
-  ScanJson(const std::filesystem::path& file, double field_of_view)
-      : lines_(file), text_(lines_), field_of_view_(field_of_view) {}
+  ScanJson(const std::filesystem::path& file, const ScanGeometry& geometry)
+      : lines_(file), text_(lines_), geometry_(geometry) {}
 
   bool next(RecordedScan& scan) override {
     if (first_) {
@@ -67,7 +68,8 @@ class ScanJson final : public ScanReader {
     } while (text_.skip(','));
     text_.expect('}');
     if (scan.ranges.empty()) text_.fail("a scan without ranges before here");
-    fill_bearings(scan.ranges.size(), field_of_view_, scan.bearings);
+    std::string note = fill_bearings(scan.ranges.size(), geometry_, scan.bearings);
+    if (!note.empty()) scan.notes.push_back(std::move(note));
     if (x && y && theta && std::isfinite(*x + *y + *theta)) {
       scan.odometry.push_back({std::nullopt, {*x, *y, *theta}});
     }
@@ -89,7 +91,7 @@ class ScanJson final : public ScanReader {
 
   LineReader lines_;
   JsonText text_;
-  double field_of_view_;
+  ScanGeometry geometry_;
   bool first_ = true;
   bool ended_ = false;
 };
@@ -97,8 +99,8 @@ class ScanJson final : public ScanReader {
 }  // namespace
 
 std::unique_ptr<ScanReader> open_scan_json(const std::filesystem::path& file,
-                                           double field_of_view) {
-  return std::make_unique<ScanJson>(file, field_of_view);
+                                           const ScanGeometry& geometry) {
+  return std::make_unique<ScanJson>(file, geometry);
 }
 
 }  // namespace quoin::sensor_bridge

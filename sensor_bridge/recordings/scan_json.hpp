@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "sensor_bridge/recordings/scan_geometry.hpp"
 #include "sensor_bridge/recordings/scan_reader.hpp"
 
 namespace quoin::sensor_bridge {
@@ -16,9 +17,9 @@ namespace quoin::sensor_bridge {
 ///     -0.46},
 ///              ...}}
 ///
-/// with ranges [m] in the order of their bearings over `field_of_view` [rad], as CARMEN has them,
+/// with ranges [m] in the order of their bearings as `fill_bearings` gives them,
 /// and the pose of the robot by its wheels. Throws ScanFileError.
 [[nodiscard]] std::unique_ptr<ScanReader> open_scan_json(const std::filesystem::path& file,
-                                                         double field_of_view);
+                                                         const ScanGeometry& geometry);
 
 }  // namespace quoin::sensor_bridge

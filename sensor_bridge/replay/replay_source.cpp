@@ -8,6 +8,7 @@
 #include <idl/Odometry.h>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "sensor_bridge/recordings/parameters.hpp"
@@ -15,6 +16,7 @@
 #include "sensor_bridge/replay/playback.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
 #include "services/topics/poses.hpp"
+#include "services/topics/segments.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -65,20 +67,47 @@ class OdometryOutput {
   std::size_t published_ = 0;
 };
 
+/// What the recording has of the scan; the rest is as declared.
+void fill_scan(const RecordedScan& recorded, const ReplayParameters& parameters, msg::Scan& scan) {
+  scan.bearings() = recorded.bearings;
+  scan.ranges() = recorded.ranges;
+  scan.time_offsets() = recorded.time_offsets;
+  scan.duration(recorded.time_offsets.empty() ? 0.0F : recorded.time_offsets.back());
+  if (recorded.duration) scan.duration(static_cast<float>(*recorded.duration));
+  scan.qualities().clear();
+  const bool frame_of_file = parameters.frame == ReplayParameters().frame;
+  if (!recorded.frame.empty() && frame_of_file) scan.header().frame(recorded.frame);
+  if (recorded.sensor) {
+    // A scan of ours: as it was, unless the deployment says otherwise of its sensor.
+    scan.qualities() = recorded.qualities;
+    if (!parameters.declares_sensor()) {
+      scan.sensor_model(topics::sensor_model_message(*recorded.sensor));
+      scan.sensor_model().estimated(recorded.sensor_estimated);
+    }
+  }
+  const bool limits_of_file = parameters.range_max == ReplayParameters::usual_range_max;
+  if (recorded.range_max && limits_of_file) {
+    scan.range_max(static_cast<float>(*recorded.range_max));
+    if (recorded.range_min && parameters.range_min == 0.0) {
+      scan.range_min(static_cast<float>(*recorded.range_min));
+    }
+  }
+}
+
 void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime::Source& source) {
   msg::Scan scan = declared_scan(parameters);
   RecordedScan recorded;
   OdometryOutput odometry(parameters);
   Playback playback(parameters.speed, parameters.rate_hz);
   std::optional<std::int64_t> first_stamp;  // [ns] as recorded
+  std::set<std::string> told;               // notes
   const steady_clock::time_point start = steady_clock::now();
   for (std::int64_t count = 0; parameters.scans == 0 || count < parameters.scans; ++count) {
     if (!next(files, parameters.loop, recorded)) break;
-    apply_range_limits(parameters.range_min, parameters.range_max, recorded.ranges);
-    scan.bearings() = recorded.bearings;
-    scan.ranges() = recorded.ranges;
-    scan.time_offsets() = recorded.time_offsets;
-    scan.duration(recorded.time_offsets.empty() ? 0.0F : recorded.time_offsets.back());
+    for (const std::string& note : recorded.notes) {
+      if (told.insert(note).second) source.warn(note);
+    }
+    fill_scan(recorded, parameters, scan);
 
     const bool stamps_were_good = playback.bad_stamps() == 0;
     const double due = playback.due(recorded, Seconds(steady_clock::now() - start).count());
@@ -93,6 +122,8 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
     if (parameters.stamps == ReplayStamps::recorded) {
       if (!first_stamp) first_stamp = recorded.stamp ? nanoseconds(*recorded.stamp) : stamp;
       stamp = *first_stamp + nanoseconds(playback.recorded_time());
+      const bool exact = playback.bad_stamps() == 0 && !parameters.loop;
+      if (recorded.epoch_stamp && exact) stamp = *recorded.epoch_stamp;
     }
     if (!odometry.publish(recorded, stamp, source)) return;
     scan.header().stamp(stamp);

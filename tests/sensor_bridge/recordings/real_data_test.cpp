@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -120,6 +122,53 @@ TEST_F(RealData, RplidarRevolutionsAreReadWhole) {
     EXPECT_TRUE(std::is_sorted(scan.bearings.begin(), scan.bearings.end()));
   }
   EXPECT_THAT(points, ::testing::ElementsAre(594, 556, 624, 657, 665, 609, 624, 667, 672, 664));
+}
+
+TEST_F(RealData, BagOfTwoScannersIsReadWhole) {
+  for (const auto& [topic, scans] :
+       {std::pair{"/front_scan", 331U}, std::pair{"/rear_scan", 330U}}) {
+    ReplayParameters parameters;
+    parameters.topic = topic;
+    ScanFiles files(folder_ / "rosbag1" / "obstacle_detector_scans_demo.bag", parameters);
+    RecordedScan scan;
+    std::size_t count = 0;
+    while (files.next(scan)) {
+      ++count;
+      ASSERT_EQ(scan.ranges.size(), 726U);
+      EXPECT_EQ(scan.epoch_stamp.has_value() && !scan.frame.empty(), true);
+      EXPECT_NEAR(scan.bearings[1] - scan.bearings[0], 2.0 * std::numbers::pi / 1024.0, 1e-5);
+    }
+    EXPECT_EQ(count, scans) << topic;
+  }
+  // Without a topic it is unclear which.
+  EXPECT_THROW(ScanFiles(folder_ / "rosbag1" / "obstacle_detector_scans_demo.bag",
+                         ScanFormat::automatic, 0.0),
+               ScanFileError);
+}
+
+TEST_F(RealData, BagWithBz2IsReadWhole) {
+  ScanFiles files(folder_ / "rosbag1" / "sick_lms1xx_rms.bag", ScanFormat::automatic, 0.0);
+  RecordedScan scan;
+  std::size_t count = 0;
+  while (files.next(scan)) {
+    ++count;
+    EXPECT_GT(scan.ranges.size(), 100U);
+  }
+  EXPECT_EQ(count, 89U);
+}
+
+TEST_F(RealData, WhatHoldsNoScanIsRefusedInPlainWords) {
+  const auto error = [&](const char* file) -> std::string {
+    try {
+      ScanFiles files(folder_ / file, ScanFormat::automatic, 0.0);
+    } catch (const ScanFileError& refused) {
+      return refused.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error("rosbag1/scan_tools_splitter_demo.bag"), ::testing::HasSubstr("before 2.0"));
+  EXPECT_THAT(error("mcap/ros2_talker.mcap"),
+              ::testing::HasSubstr("/chatter (std_msgs/msg/String)"));
 }
 
 }  // namespace

@@ -25,12 +25,12 @@ TEST(ScanJson, IsReadHoweverItIsLaidOut) {
     3e0, 4], "note": {"a": [1, {"b": "}"}]}, "x": 1, "y":
   -2, "theta": 0.5}
   ,"3.0":{"theta":1,"range":[5,6],"y":0}}})");
-  const auto reader = open_scan_json(file, std::numbers::pi);
+  const auto reader = open_scan_json(file, ScanGeometry{});
   RecordedScan scan;
   ASSERT_TRUE(reader->next(scan));
   EXPECT_EQ(scan.stamp, 2.5);
   EXPECT_THAT(scan.ranges, ElementsAre(1, 2.5, 3, 4));
-  EXPECT_FLOAT_EQ(scan.bearings[1], static_cast<float>(-std::numbers::pi / 4));
+  EXPECT_FLOAT_EQ(scan.bearings[1], static_cast<float>(-std::numbers::pi / 6));
   ASSERT_EQ(scan.odometry.size(), 1U);
   EXPECT_EQ(scan.odometry[0].pose.y, -2.0);
   ASSERT_TRUE(reader->next(scan));
@@ -43,7 +43,7 @@ TEST(ScanJson, IsReadHoweverItIsLaidOut) {
 TEST(ScanJson, SaysWhereItIsWrong) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& content) {
-    const auto reader = open_scan_json(folder.write("a.json", content), 1.0);
+    const auto reader = open_scan_json(folder.write("a.json", content), ScanGeometry{});
     RecordedScan scan;
     return error_of<ScanFileError>([&] {
       while (reader->next(scan)) {

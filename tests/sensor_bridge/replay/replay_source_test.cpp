@@ -9,7 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "sensor_bridge/recordings/line_reader.hpp"
+#include "services/topics/cdr_codec.hpp"
 #include "tests/sensor_bridge/error_of.hpp"
 #include "tests/sensor_bridge/recording_source.hpp"
 #include "tests/temporary_folder.hpp"
@@ -67,6 +69,59 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
   EXPECT_EQ(source.deadlines[1] - source.deadlines[0], std::chrono::milliseconds(500));
   EXPECT_EQ(source.memory[0], source.memory[1]);
   EXPECT_THAT(source.warnings, ElementsAre());
+}
+
+TEST(ReplaySource, AScanOfOursComesAsItWasRecorded) {
+  const TemporaryFolder folder;
+  msg::Scan original;
+  original.header().frame("front_laser");
+  original.header().stamp(1'700'000'000'123'456'789);
+  original.header().origins().resize(1);
+  original.header().trace().resize(2);
+  original.sensor_model().range_stddev(0.0123);
+  original.sensor_model().estimated(true);
+  original.range_min(0.125F);
+  original.range_max(100.0F);
+  original.duration(0.09F);
+  original.bearings({-0.3F, 0.1F, 0.7F, 0.9F});
+  original.ranges({90.5F, INFINITY, -INFINITY, 0.05F});
+  original.qualities({0.5F, 0.0F, 0.0F, 1.0F});
+  original.time_offsets({0.0F, 0.03F, 0.06F, 0.09F});
+  topics::RawMessage raw;
+  topics::encode(original, raw);
+  {
+    mcap::Writer writer(folder.path() / "a.mcap", {});
+    const std::uint16_t other = writer.add_channel(0, "t/map", "json");
+    const std::uint16_t schema = writer.add_schema("quoin::msg::Scan", "omgidl", "...");
+    const std::uint16_t channel = writer.add_channel(schema, "t/front/scan", "cdr");
+    writer.write({other, 0, 1, 1, {"{}"}});
+    writer.write(
+        {channel, 0, 2, 2, {{reinterpret_cast<const char*>(raw.cdr.data()), raw.cdr.size()}}});
+    writer.finish();
+  }
+  RecordingSource source;
+  open_replay(source_config({{"path", "a.mcap"}, {"stamps", "recorded"}}), folder.path())(source);
+  ASSERT_EQ(source.scans.size(), 1U);
+  msg::Scan replayed = source.scans[0];
+  EXPECT_EQ(replayed.header().stamp(), original.header().stamp());
+  EXPECT_EQ(replayed.header().frame(), original.header().frame());
+  replayed.header(original.header());  // numbered anew
+  topics::RawMessage again;
+  topics::encode(replayed, again);
+  EXPECT_EQ(again.cdr, raw.cdr);
+}
+
+TEST(ReplaySource, AFileWithoutScansTellsItsTopics) {
+  const TemporaryFolder folder;
+  mcap::Writer writer(folder.path() / "a.mcap", {});
+  const std::uint16_t schema = writer.add_schema("std_msgs/msg/String", "ros2msg", "string data");
+  const std::uint16_t channel = writer.add_channel(schema, "/chatter", "cdr");
+  writer.write({channel, 0, 1, 1, {"x"}});
+  writer.finish();
+  const std::string error = error_of<ScanFileError>([&] {
+    (void)open_replay(source_config({{"path", "a.mcap"}}), folder.path());
+  });
+  EXPECT_THAT(error, ::testing::HasSubstr("/chatter (std_msgs/msg/String)"));
 }
 
 TEST(ReplaySource, PublishesOdometryWithTheStampsOfTheScans) {
@@ -139,11 +194,10 @@ TEST(ReplaySource, PublishesTheGoodScansBeforeItFails) {
       folder.write("a.log", flaser("1 1", "7") + flaser("1 1", "8") + "FLASER 2 1");
   const auto body = open_replay(source_config({{"path", "a.log"}}), folder.path());
   RecordingSource source;
-  EXPECT_EQ(
-      error_of<runtime::SourceError>([&] { body(source); }),
-      file +
-          ":3:11: FLASER announces 2 ranges and 9 values after them, but the line ends after 1 of "
-          "these 11; the file is cut off or damaged here");
+  EXPECT_EQ(error_of<runtime::SourceError>([&] { body(source); }),
+            file +
+                ":3:11: FLASER announces 2 ranges, but the line ends early; the file is cut off or "
+                "damaged here");
   EXPECT_EQ(source.scans.size(), 2U);
 }
 
@@ -152,9 +206,10 @@ TEST(ReplaySource, RefusesWhatIsMissingWhenOpened) {
               (void)open_replay(source_config({{"path", "a.log"}}), "/nowhere");
             }),
             "cannot read scan file '/nowhere/a.log': No such file or directory");
-  EXPECT_EQ(error_of<ParameterError>([] { (void)open_replay(source_config({}), "/nowhere"); }),
-            "is missing: scan file, or folder whose .csv, .log and .dat files are read in the "
-            "order of their names (relative to the deployment file)");
+  EXPECT_EQ(
+      error_of<ParameterError>([] { (void)open_replay(source_config({}), "/nowhere"); }),
+      "is missing: recording (CARMEN, CSV, JSON, .dat, MCAP, ROS 1 and ROS 2 bags), or folder "
+      "whose scan files are read in the order of their names (relative to the deployment file)");
 }
 
 }  // namespace
