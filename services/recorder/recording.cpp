@@ -7,8 +7,10 @@
 #include <cctype>
 #include <charconv>
 #include <ctime>
+#include <idl/LineMap.h>
 #include <system_error>
 
+#include "services/topics/cdr_codec.hpp"
 #include "services/topics/protobuf/schemas.hpp"
 
 namespace quoin {
@@ -82,8 +84,8 @@ Recording::Recording(const fs::path& path, const RecorderParameters& parameters,
       split_(parse_split(parameters.split)),
       facts_(std::move(facts)) {
   for (RecordedTopic& topic : topics) {
-    Topic& added = topics_.emplace_back(
-        Topic{std::move(topic), std::nullopt, topics::Views(""), {}, std::nullopt});
+    Topic& added =
+        topics_.emplace_back(Topic{std::move(topic), std::nullopt, topics::Views(""), {}, {}});
     if (parameters_.content == RecordedContent::cdr) continue;
     added.encoder.emplace(added.described.type->dds_type);
     added.views = topics::Views(added.described.type->name);
@@ -131,7 +133,18 @@ void Recording::write(const MessageToRecord& message) {
   if (opened_at_ == 0) opened_at_ = log_time;
   Topic& topic = topics_.at(message.topic);
   write_to_file(topic, message, log_time);
-  if (topic.described.qos == "state") topic.last = message;
+  if (topic.described.qos == "state") topic.last[key_of(topic, message)] = message;
+}
+
+/// Of the instance that the message is of: late readers get the newest of each.
+std::string Recording::key_of(const Topic& topic, const MessageToRecord& message) {
+  if (topic.described.type->name != "line_map") return "";
+  msg::LineMap map;
+  if (!topics::decode(topics::cdr_codec<msg::LineMap>(), message.cdr.data(), message.cdr.size(),
+                      &map)) {
+    return "";
+  }
+  return std::to_string(map.part());
 }
 
 void Recording::split_if_due(std::int64_t now) {
@@ -143,7 +156,7 @@ void Recording::split_if_due(std::int64_t now) {
   open();
   opened_at_ = now;
   for (Topic& topic : topics_) {
-    if (topic.last) write_to_file(topic, *topic.last, now);
+    for (const auto& [key, message] : topic.last) write_to_file(topic, message, now);
   }
 }
 
@@ -198,7 +211,8 @@ void Recording::write_to_file(Topic& topic, const MessageToRecord& message, std:
   }
 }
 
-/// Viewers show what is in a frame only when they know where that is.
+/// Viewers show what is in a frame only when a transform names it. This one leaves it free to have
+/// a parent: where the sensor is, a pose may tell.
 void Recording::write_frame(const MessageToRecord& message, std::int64_t log_time) {
   if (message.frame.empty() || frames_.contains(message.frame)) return;
   frames_.insert(message.frame);
@@ -207,7 +221,7 @@ void Recording::write_frame(const MessageToRecord& message, std::int64_t log_tim
         writer_->add_channel(schema(topics::frame_transform_schema, "protobuf"), "tf", "protobuf");
   }
   const std::string transform =
-      topics::frame_transform("world", message.frame, message.stamp, Pose2());
+      topics::frame_transform(message.frame, message.frame + "/origin", message.stamp, Pose2());
   const auto time = static_cast<std::uint64_t>(log_time);
   writer_->write({transforms_, 0, time, time, {transform}});
 }

@@ -92,12 +92,14 @@ class Recording {
     std::optional<topics::MessageEncoder> encoder;
     topics::Views views;
     Channels channels;
-    std::optional<MessageToRecord> last;  // of a topic whose newest message late readers get
+    // By key, of a topic whose newest messages late readers get.
+    std::map<std::string, MessageToRecord> last;
   };
 
   void open();
   void split_if_due(std::int64_t now);
   void write_to_file(Topic& topic, const MessageToRecord& message, std::int64_t log_time);
+  [[nodiscard]] static std::string key_of(const Topic& topic, const MessageToRecord& message);
   void write_frame(const MessageToRecord& message, std::int64_t log_time);
   [[nodiscard]] std::uint16_t schema(std::string_view name, std::string_view encoding,
                                      std::string_view idl = {});

@@ -34,15 +34,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
   -DQUOIN_FUZZ=ON -DQUOIN_DDS=OFF -DQUOIN_TESTS=OFF -DQUOIN_BENCHMARKS=OFF >"$work/build.txt" 2>&1 &&
-  cmake --build "$build" -j "$(nproc)" --target fuzz_sample_decoder fuzz_descriptor fuzz_cdr_json fuzz_idl fuzz_viewer >>"$work/build.txt" 2>&1 ||
+  cmake --build "$build" -j "$(nproc)" --target fuzz_sample_decoder fuzz_descriptor fuzz_cdr_json fuzz_idl \
+    fuzz_viewer fuzz_mcap fuzz_bag fuzz_scan_message >>"$work/build.txt" 2>&1 ||
   { cat "$work/build.txt" >&2; exit 2; }
 
 failed=0
 mkdir -p "$build/findings"
-for target in sample_decoder descriptor cdr_json idl viewer; do
+for target in sample_decoder descriptor cdr_json idl viewer mcap bag scan_message; do
   cp -r "$root/tests/fuzz/corpus/$target" "$work/$target"
   status=0
-  "$build/bin/fuzz_$target" "$work/$target" "$limit" -max_len=2048 -timeout=10 -print_final_stats=1 \
+  "$build/bin/fuzz_$target" "$work/$target" "$limit" -max_len=4096 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="$build/findings/$target-" >"$work/$target.txt" 2>&1 || status=$?
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$target.txt")
   if ((status != 0)); then

@@ -47,6 +47,16 @@ void set_pose(const Pose2& pose, foxglove::Pose& out) {
   set_heading(pose.theta, *out.mutable_orientation());
 }
 
+void set_transform(std::string_view parent, std::string_view child, std::int64_t stamp,
+                   const Pose2& pose, foxglove::FrameTransform& out) {
+  set_time(stamp, *out.mutable_timestamp());
+  out.set_parent_frame_id(std::string(parent));
+  out.set_child_frame_id(std::string(child));
+  out.mutable_translation()->set_x(pose.x);
+  out.mutable_translation()->set_y(pose.y);
+  set_heading(pose.theta, *out.mutable_rotation());
+}
+
 Scene::Scene(const msg::Header& header, foxglove::SceneUpdate& update)
     : header_(header), update_(update) {
   foxglove::SceneEntityDeletion& deletion = *update.add_deletions();

@@ -6,6 +6,7 @@
 #include <foxglove/foxglove.pb.h>
 #include <idl/Common.h>
 #include <string>
+#include <string_view>
 
 #include "core/geometry/corner.hpp"
 #include "core/geometry/pose.hpp"
@@ -17,6 +18,10 @@ void set_time(std::int64_t stamp, google::protobuf::Timestamp& time);
 /// `theta` [rad] about z.
 void set_heading(double theta, foxglove::Quaternion& rotation);
 void set_pose(const Pose2& pose, foxglove::Pose& out);
+
+/// Where `child` stands in `parent`.
+void set_transform(std::string_view parent, std::string_view child, std::int64_t stamp,
+                   const Pose2& pose, foxglove::FrameTransform& out);
 
 struct SceneColor {
   double r = 0.0;

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <idl/Circles.h>
 #include <idl/Corners.h>
+#include <idl/LineMap.h>
 #include <idl/Lines.h>
+#include <idl/Odometry.h>
+#include <idl/Pose.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
 
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/protobuf/feature_views.hpp"
+#include "services/topics/protobuf/pose_views.hpp"
 #include "services/topics/protobuf/scan_views.hpp"
 #include "services/topics/protobuf/scene.hpp"
 
@@ -45,11 +49,25 @@ constexpr View corners_views[] = {
 constexpr View circles_views[] = {
     {"scene", "foxglove.SceneUpdate", append<msg::Circles, foxglove::SceneUpdate, show_circles>}};
 
+constexpr View odometry_views[] = {
+    {"pose", "foxglove.PoseInFrame", append<msg::Odometry, foxglove::PoseInFrame, show_odometry>},
+    {"tf", "foxglove.FrameTransform",
+     append<msg::Odometry, foxglove::FrameTransform, show_odometry_frame>}};
+constexpr View pose_views[] = {
+    {"pose", "foxglove.PoseInFrame", append<msg::Pose, foxglove::PoseInFrame, show_pose>},
+    {"tf", "foxglove.FrameTransform", append<msg::Pose, foxglove::FrameTransform, show_pose_frame>},
+    {"scene", "foxglove.SceneUpdate", append<msg::Pose, foxglove::SceneUpdate, show_pose_ellipse>}};
+constexpr View line_map_views[] = {
+    {"scene", "foxglove.SceneUpdate", append<msg::LineMap, foxglove::SceneUpdate, show_line_map>}};
+
 constexpr Row table[] = {{"scan", cdr_codec<msg::Scan>, scan_views},
                          {"segments", cdr_codec<msg::Segments>, segments_views},
                          {"lines", cdr_codec<msg::Lines>, lines_views},
                          {"corners", cdr_codec<msg::Corners>, corners_views},
-                         {"circles", cdr_codec<msg::Circles>, circles_views}};
+                         {"circles", cdr_codec<msg::Circles>, circles_views},
+                         {"odometry", cdr_codec<msg::Odometry>, odometry_views},
+                         {"pose", cdr_codec<msg::Pose>, pose_views},
+                         {"line_map", cdr_codec<msg::LineMap>, line_map_views}};
 
 }  // namespace
 
@@ -85,12 +103,7 @@ bool Views::append(std::size_t view, std::string& out) const {
 std::string frame_transform(std::string_view parent, std::string_view child, std::int64_t stamp,
                             const Pose2& pose) {
   foxglove::FrameTransform transform;
-  set_time(stamp, *transform.mutable_timestamp());
-  transform.set_parent_frame_id(std::string(parent));
-  transform.set_child_frame_id(std::string(child));
-  transform.mutable_translation()->set_x(pose.x);
-  transform.mutable_translation()->set_y(pose.y);
-  set_heading(pose.theta, *transform.mutable_rotation());
+  set_transform(parent, child, stamp, pose, transform);
   return transform.SerializeAsString();
 }
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/recorder.hpp"
 
+#include <array>
+#include <cstdio>
 #include <cstring>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -150,6 +153,56 @@ TEST_F(RecorderTest, StopsInTimeBeforeTheDiskIsFull) {
   parameters_.keep_free = 1e9;
   EXPECT_THROW(Recorder(folder_.path() / "b.mcap", parameters_, {scans}, {}),
                sensor_bridge::mcap::WriteError);
+}
+
+/// Exit code of `node PROGRAM ARGUMENT`, whose output is taken; nothing where node or the programs
+/// of others are not there (npm install in tests/npm).
+std::optional<int> node(const std::string& program, const std::string& argument,
+                        std::string& output) {
+  const std::filesystem::path clients = QUOIN_CLIENTS_DIR;
+  if (!std::filesystem::exists(clients / "node_modules/@mcap/core")) return std::nullopt;
+  const std::string line = "node '" + (clients / program).string() + "' '" + argument + "' 2>&1";
+  FILE* pipe = ::popen(line.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::array<char, 4096> piece{};
+  while (const std::size_t count = std::fread(piece.data(), 1, piece.size(), pipe)) {
+    output.append(piece.data(), count);
+  }
+  return ::pclose(pipe);
+}
+
+TEST_F(RecorderTest, OthersReadWhatItWrites) {
+  for (const auto compression : {sensor_bridge::Compression::none, sensor_bridge::Compression::zstd,
+                                 sensor_bridge::Compression::lz4}) {
+    parameters_.compression = compression;
+    const std::filesystem::path file =
+        folder_.path() / (std::string(enum_name(compression)) + ".mcap");
+    RunFacts facts;
+    facts.metadata["quoin.host"] = {{"name", "robot"}};
+    facts.deployment_name = "robot.yaml";
+    facts.deployment_text = "version: 1";
+    Recorder recorder(file, parameters_, {scans, lines}, facts);
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      const Sent scan = sent<msg::Scan>(i);
+      recorder.record(0, scan.raw, scan.header);
+      const Sent line = sent<msg::Lines>(i);
+      recorder.record(1, line.raw, line.header);
+    }
+    recorder.finish();
+    std::string output;
+    const auto code = node("mcap.mjs", file.string(), output);
+    if (!code) GTEST_SKIP() << "node or @mcap/core are not there: npm install in tests/npm";
+    EXPECT_EQ(*code, 0) << output;
+    // Both as sent, as Protobuf, and for viewers; the frame.
+    EXPECT_THAT(output, ::testing::HasSubstr("\"messages\": 181"));
+  }
+}
+
+TEST(FoxgloveSchemas, HaveThePublishedNumbers) {
+  std::string output;
+  const auto code = node("foxglove_schemas.mjs", QUOIN_IDL_DIR, output);
+  if (!code) GTEST_SKIP() << "node or the schemas are not there: npm install in tests/npm";
+  EXPECT_EQ(*code, 0) << output;
 }
 
 TEST(ParseSplit, TakesTimesAndSizes) {

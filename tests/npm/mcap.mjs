@@ -3,16 +3,18 @@
 //
 // Opens a recording as Foxglove's own libraries do: the stream with all checksums, the index, and each message by the
 // schema that stands in the file. Prints what it found as one JSON object; throws at anything that is wrong.
-//   node mcap_check.js FILE
-"use strict";
+//   node mcap.mjs FILE
+import { createRequire } from "node:module";
+import fs from "node:fs/promises";
+
+const require = createRequire(import.meta.url);
 const { McapStreamReader, McapIndexedReader } = require("@mcap/core");
 const { loadDecompressHandlers } = require("@mcap/support");
 const { FileHandleReadable } = require("@mcap/nodejs");
 const { MessageReader } = require("@foxglove/omgidl-serialization");
 const { parseIDL } = require("@foxglove/omgidl-parser");
 const protobuf = require("protobufjs");
-require("protobufjs/ext/descriptor");
-const fs = require("node:fs/promises");
+const { FileDescriptorSet } = require("protobufjs/ext/descriptor");
 
 function decoder(schema) {
   if (schema.encoding === "omgidl") {
@@ -20,8 +22,7 @@ function decoder(schema) {
     return (data) => reader.readMessage(data);
   }
   if (schema.encoding === "protobuf") {
-    const set = protobuf.descriptor?.FileDescriptorSet ?? require("protobufjs/ext/descriptor").FileDescriptorSet;
-    const type = protobuf.Root.fromDescriptor(set.decode(schema.data)).lookupType(schema.name);
+    const type = protobuf.Root.fromDescriptor(FileDescriptorSet.decode(schema.data)).lookupType(schema.name);
     return (data) => type.decode(data);
   }
   throw new Error(`schema of encoding ${schema.encoding}`);
