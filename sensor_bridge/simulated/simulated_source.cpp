@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/simulated/simulated_source.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <idl/Odometry.h>
@@ -29,7 +30,8 @@ class RobotOutput {
         // Not the seed of the scans, whose noise would go with that of the wheels.
         wheels_(wheel_errors(parameters),
                 static_cast<std::uint64_t>(parameters.seed) + 0x9e3779b9U),
-        timer_(start, parameters.odometry_rate_hz) {
+        // The robot stands until the first ray is cast, before which there is odometry, too.
+        timer_(start - std::chrono::milliseconds(1), parameters.odometry_rate_hz) {
     odometry_.header().frame(parameters.odometry_frame);
     odometry_.child_frame(parameters.base_frame);
     truth_.header().frame(parameters.map_frame);
@@ -50,10 +52,11 @@ class RobotOutput {
     return true;
   }
 
-  /// The true pose at the first ray of a scan.
-  bool publish_truth(const World& world, steady_clock::time_point begin, runtime::Source& source) {
+  /// The true pose at the first ray of a scan, whose stamp [ns] that is.
+  bool publish_truth(const World& world, steady_clock::time_point begin, std::int64_t stamp,
+                     runtime::Source& source) {
     if (!parameters_.truth) return true;
-    truth_.header().stamp(runtime::epoch_ns(begin));
+    truth_.header().stamp(stamp);
     truth_.pose(topics::pose_message({pose_at(world, begin), Eigen::Matrix3d::Zero()}));
     return source.publish_also(truth_);
   }
@@ -61,7 +64,7 @@ class RobotOutput {
  private:
   [[nodiscard]] Pose2 pose_at(const World& world, steady_clock::time_point time) const {
     const double elapsed = std::chrono::duration<double>(time - start_).count();
-    return world.pose_at(parameters_.speed * elapsed);
+    return world.pose_at(parameters_.speed * std::max(elapsed, 0.0));
   }
 
   const SimulatedParameters& parameters_;
@@ -90,8 +93,9 @@ void publish_scans(SimulatedScanner scanner, const SimulatedParameters& paramete
     scan.duration(rays.time_offsets.back());
     if (!robot.publish_odometry(scanner.world(), revolution.end, source)) return;
     if (!source.wait_until(revolution.end)) return;
-    if (!robot.publish_truth(scanner.world(), revolution.begin, source)) return;
-    scan.header().stamp(runtime::epoch_ns(revolution.begin));
+    const std::int64_t stamp = runtime::epoch_ns(revolution.begin);
+    if (!robot.publish_truth(scanner.world(), revolution.begin, stamp, source)) return;
+    scan.header().stamp(stamp);
     if (!source.publish(scan)) return;
   }
 }

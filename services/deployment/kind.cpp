@@ -32,8 +32,8 @@ bool KindInfo::gives(const OutputPort& port, const ParameterSettings& settings) 
   const auto info = std::ranges::find(parameters, port.parameter, &ParameterInfo::name);
   if (info == parameters.end()) throw std::logic_error("no parameter " + port.parameter);
   const auto setting = std::ranges::find(settings, port.parameter, &ParameterSetting::name);
-  return detail::parse_boolean(*info,
-                               setting == settings.end() ? info->default_value : setting->text);
+  // What is neither true nor false has been reported.
+  return (setting == settings.end() ? info->default_value : setting->text) == "true";
 }
 
 const KindInfo* KindList::find(std::string_view name) const {
