@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/parameters/parameter.hpp"
+#include "services/topics/topic_types.hpp"
 
 namespace quoin::ros2 {
 
@@ -36,11 +37,36 @@ constexpr std::array table{
               "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
               QosPreset::feature, 100},
     TopicType{"diagnostic_msgs/msg/DiagnosticArray",
-              "4c66654bbe437f346d65d007b65eb29d3dd440fb1d8a701be4f45e4753b9a325",
+              "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e",
               QosPreset::feature, 10},
     TopicType{"rmw_dds_common/msg/ParticipantEntitiesInfo",
               "91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", QosPreset::state,
               1},
+    // Ours, under the names of idl/ros2/quoin_msgs.
+    TopicType{"quoin_msgs/msg/Scan",
+              "10ac883d248e55852ba0cfd61115e9554187c957286e01f315292b101dae9737", QosPreset::sensor,
+              5},
+    TopicType{"quoin_msgs/msg/Segments",
+              "33cd1df6cc0bb300ecd96d99374b09891b01afb142977e35a4285747930a33a5",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/Lines",
+              "ed6853763295d43c85fa46a979da0ff93b4d996938d706ede401e02a0761e668",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/Corners",
+              "a055dd470eb73da605a230afc2192f411c640be99b02b17304902d7bc2db054a",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/Circles",
+              "9ca73273f86e8cd9e3c4e9f77fc2c07de52093d915d351d27a1dce3ad5501b9b",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/Odometry",
+              "1ef08a59ec72d5749590ca2e430fb648a466c0bec1079d36a21a76f930e4bfd4",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/Pose",
+              "bae7aa2c62c04c0a0789ccd229963bdb0c60c69572bf2409e343c621a1425a18",
+              QosPreset::feature, 10},
+    TopicType{"quoin_msgs/msg/LineMap",
+              "b5d40c3486889a5d305b57c223cc8fa9aaf0feeb752e642a7090fc1bc2382677",
+              QosPreset::feature, 10},
 };
 
 constexpr std::string_view before_type = "::msg::dds_::";
@@ -61,6 +87,13 @@ const TopicType& topic_type(std::string_view name) {
   const auto row = std::ranges::find(table, name, &TopicType::name);
   if (row == table.end()) throw std::out_of_range("no ROS 2 type '" + std::string(name) + "'");
   return *row;
+}
+
+const TopicType& own_type(std::string_view type) {
+  const topics::TopicType* row = topics::find_topic_type(type);
+  if (row == nullptr) throw std::out_of_range("no topic type '" + std::string(type) + "'");
+  const std::string_view dds_type = row->dds_type;
+  return topic_type("quoin_msgs/msg/" + std::string(dds_type.substr(dds_type.rfind(':') + 1)));
 }
 
 std::string dds_type_name(std::string_view name) {

@@ -27,6 +27,9 @@ struct TopicType {
 /// Throws std::out_of_range when there is no such row. `name` as ROS 2 has it.
 [[nodiscard]] const TopicType& topic_type(std::string_view name);
 
+/// The row of one of our own types, named as in our table: "lines". Likewise.
+[[nodiscard]] const TopicType& own_type(std::string_view type);
+
 /// "sensor_msgs::msg::dds_::LaserScan_" of "sensor_msgs/msg/LaserScan".
 [[nodiscard]] std::string dds_type_name(std::string_view name);
 /// And back.

@@ -40,27 +40,15 @@ class PublishingSource final : public ServiceActivity<Source> {
     return next;
   }
 
-  bool publish(msg::Scan& scan) override {
-    if (service_.stop.requested()) return false;
-    const std::int64_t taken = now_ns();
-    const std::int64_t published = write(0, &scan, scan.header(), next_number_[0]++, taken);
-    if (published > 0) {
-      service_.record.count_result(published, taken, published, 0);
-    } else {
-      service_.record.count_loss(LossCause::publishing);
-    }
-    return !service_.stop.requested();
-  }
+  bool publish(msg::Scan& scan) override { return publish_on(0, &scan, scan.header()); }
 
   [[nodiscard]] Participant& participant() override { return service_.process.participant; }
 
  protected:
   bool publish_own(const std::type_info& type, void* message, msg::Header& header) override {
-    for (std::size_t i = 1; i < outputs_.size(); ++i) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
       if (outputs_[i].output->type() != type) continue;
-      if (service_.stop.requested()) return false;
-      (void)write(i, message, header, next_number_[i]++, now_ns());
-      return !service_.stop.requested();
+      return publish_on(i, message, header);
     }
     throw std::logic_error("no output of that message type");
   }
@@ -68,6 +56,19 @@ class PublishingSource final : public ServiceActivity<Source> {
  private:
   [[nodiscard]] std::string key(std::size_t output) const {
     return output == 0 ? "" : output_key(outputs_[output].port.type);
+  }
+
+  /// False when asked to stop. What comes by the first output counts for the service.
+  bool publish_on(std::size_t index, void* message, msg::Header& header) {
+    if (service_.stop.requested()) return false;
+    const std::int64_t taken = now_ns();
+    const std::int64_t published = write(index, message, header, next_number_[index]++, taken);
+    if (index == 0 && published > 0) {
+      service_.record.count_result(published, taken, published, 0);
+    } else if (index == 0) {
+      service_.record.count_loss(LossCause::publishing);
+    }
+    return !service_.stop.requested();
   }
 
   /// The time of its publication [ns]; 0 when it was not taken.

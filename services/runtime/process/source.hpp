@@ -31,7 +31,8 @@ class Source : public Activity {
   /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.
   virtual bool publish(msg::Scan& scan) = 0;
 
-  /// Publishes a message of another output of the kind, at its own rate, with its stamp and frame.
+  /// Publishes a message of another type of the kind's outputs, at its own rate, with its stamp and
+  /// frame. A source without scans publishes all like this.
   template <class T>
   bool publish_also(T& message) {
     return publish_own(typeid(T), &message, message.header());

@@ -17,7 +17,7 @@ if [[ -d $own ]]; then
   mkdir -p "$work/msg/$package"
   cp -r "$own/msg" "$work/msg/$package/"
   # Each behind those that it needs.
-  while read -r name; do echo "$package $name" >>"$work/list"; done <"$own/order.txt"
+  grep -o 'msg/[A-Za-z0-9]*\.msg' "$own/CMakeLists.txt" | sed "s|msg/\(.*\)\.msg|$package \1|" >>"$work/list"
 fi
 for package in $(cut -d' ' -f1 "$work/list" | sort -u); do
   files=()

@@ -29,6 +29,14 @@ static const struct Type {
     TYPE(nav_msgs, OccupancyGrid),
     TYPE(tf2_msgs, TFMessage),
     TYPE(diagnostic_msgs, DiagnosticArray),
+    TYPE(quoin_msgs, Scan),
+    TYPE(quoin_msgs, Segments),
+    TYPE(quoin_msgs, Lines),
+    TYPE(quoin_msgs, Corners),
+    TYPE(quoin_msgs, Circles),
+    TYPE(quoin_msgs, Odometry),
+    TYPE(quoin_msgs, Pose),
+    TYPE(quoin_msgs, LineMap),
 };
 
 static const char* const usage =
