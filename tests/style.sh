@@ -14,7 +14,7 @@ usage: tests/style.sh format|tidy
 TEXT
 }
 
-sources() { find core deploy sensor_bridge services tests -name '*.[ch]pp' -type f; }
+sources() { find core deploy sensor_bridge services tests -path tests/npm/node_modules -prune -o -name '*.[ch]pp' -type f -print; }
 
 case ${1-} in
   format) sources | xargs clang-format-14 --dry-run --Werror ;;

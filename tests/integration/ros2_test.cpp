@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <idl/Corners.h>
 #include <idl/Lines.h>
@@ -165,6 +166,14 @@ TEST_F(Ros2, OddScansAreCountedAndNamedAndTheStreamGoesOn) {
   EXPECT_EQ(diagnostic(latest, "time_increment"), "1 scans, last 6");
 }
 
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
 /// A topic that is read by ros2_peer, and what for.
 struct Topic {
   std::string name;
@@ -254,19 +263,10 @@ TEST_F(Ros2, EveryMessageIsReadByItsNameTypeAndQosAndDecodesToWhatTheServicesGav
   }
   const Process peer("ros2_peer", arguments, deployment.directory().path());
   const Up up(deployment);
-  const auto samples = [&](const std::string& topic) {
-    const std::string printed = peer.output();
-    std::size_t count = 0;
-    const std::string begin = "sample " + topic + " ";
-    for (std::size_t at = printed.find(begin); at != std::string::npos;
-         at = printed.find(begin, at + 1)) {
-      ++count;
-    }
-    return count;
-  };
   const auto enough = [&] {
     return std::ranges::all_of(topics, [&](const Topic& topic) {
-      return samples(topic.name) >= (topic.qos == "latched" ? 1U : 2U);
+      return count_of(peer.output(), "sample " + topic.name + " ") >=
+             (topic.qos == "latched" ? 1U : 2U);
     });
   };
   const auto all = [&] {
@@ -364,6 +364,62 @@ TEST_F(Ros2, EveryMessageIsReadByItsNameTypeAndQosAndDecodesToWhatTheServicesGav
     }
     EXPECT_EQ(reported.size(), 6U);
   }
+}
+
+TEST_F(Ros2, TheScansOfTwoRecordedSensorsBecomeCornersAndMarkersAndNoneIsLost) {
+  const char* folder = std::getenv("QUOIN_DATA_DIR");
+  const std::filesystem::path bag =
+      std::filesystem::path(folder != nullptr ? folder : QUOIN_DEFAULT_DATA_DIR) /
+      "rosbag1/obstacle_detector_scans_demo.bag";
+  if (!std::filesystem::exists(bag)) {
+    GTEST_SKIP() << "no recording " << bag << "; set QUOIN_DATA_DIR to run this test";
+  }
+  const std::map<std::string, std::size_t> sensors{{"front", 331}, {"rear", 330}};
+  std::string services;
+  for (const auto& [name, scans] : sensors) {
+    services += "\n  - {name: " + name + ", kind: ros2_scan, parameters: {topic: /" + name +
+                "_scan, reliability: reliable}}\n  - {name: " + name +
+                "_walls, kind: segmentation, input: " + name + "}\n  - {name: " + name +
+                "_lines, kind: line_fitting, input: " + name + "_walls}\n  - {name: " + name +
+                "_corners, kind: corner_estimation, input: " + name + "_lines}";
+  }
+  const TestDeployment deployment(
+      services + "\n  - {name: ros, kind: ros2_output, inputs: [front_corners, rear_corners]}\n",
+      "qos: lossless\n");
+  for (const auto& [name, scans] : sensors) {
+    std::ofstream(deployment.directory().path() / name)
+        << run_script("bag_scans.mjs", {bag, "/" + name + "_scan"}, deployment);
+  }
+  runtime::Participant participant(deployment.participant("test"));
+  CornerRecorder front(participant, deployment, "front_corners");
+  CornerRecorder rear(participant, deployment, "rear_corners");
+  const std::string markers = "/" + deployment.deployment().name_space + "/markers";
+  const Process peer(
+      "ros2_peer",
+      {"read", domain_of(deployment), markers, "visualization_msgs/msg/MarkerArray", "reliable"},
+      deployment.directory().path());
+  const Up up(deployment);
+  ASSERT_TRUE(front.wait_for_writer() && rear.wait_for_writer()) << up.errors();
+  ASSERT_TRUE(tests::eventually([&] { return count_of(peer.output(), "writer") > 0; }));
+  std::vector<Process> drivers;
+  for (const auto& [name, scans] : sensors) {
+    drivers.emplace_back("ros2_peer",
+                         std::vector<std::string>{
+                             "write", domain_of(deployment), "/" + name + "_scan", "reliable", "1",
+                             "30", std::to_string(scans), deployment.directory().path() / name},
+                         deployment.directory().path());
+  }
+  ASSERT_TRUE(front.poll_until(
+      [&] {
+        rear.poll();
+        return front.messages().size() >= 331 && rear.messages().size() >= 330;
+      },
+      60s))
+      << front.messages().size() << " " << rear.messages().size() << up.errors();
+  EXPECT_EQ(front.accounting().lost() + rear.accounting().lost(), 0U);
+  EXPECT_EQ(front.messages().front().header().frame(), "front_scanner");
+  EXPECT_TRUE(tests::eventually([&] { return count_of(peer.output(), "sample") >= 661; }));
+  EXPECT_EQ(count_of(peer.output(), "sample"), 661U);
 }
 
 TEST_F(Ros2, HashesOfTypesAreThoseOfTheDefinitions) {

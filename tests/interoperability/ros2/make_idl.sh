@@ -14,8 +14,9 @@ trap 'rm -rf "$work"' EXIT
 node "$here/write_messages.mjs" "$modules" "$work/msg" "$@" >"$work/list"
 if [[ -d $own ]]; then
   package=$(basename "$own")
-  mkdir -p "$work/msg/$package"
-  cp -r "$own/msg" "$work/msg/$package/"
+  mkdir -p "$work/msg/$package/msg"
+  # Without comments, which would become annotations that other compilers of IDL do not know.
+  for file in "$own"/msg/*.msg; do sed 's/#.*//' "$file" >"$work/msg/$package/msg/${file##*/}"; done
   # Each behind those that it needs.
   grep -o 'msg/[A-Za-z0-9]*\.msg' "$own/CMakeLists.txt" | sed "s|msg/\(.*\)\.msg|$package \1|" >>"$work/list"
 fi
