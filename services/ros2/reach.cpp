@@ -83,11 +83,12 @@ std::vector<Obstacle> obstacles(const Deployment& deployment, const Surroundings
                        ", or start ROS 2 with ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (up to "
                        "Humble ROS_LOCALHOST_ONLY=1)"});
   } else if (!local && !on_loopback(deployment) &&
-             deployment.network.discovery != Discovery::multicast &&
-             surroundings.static_peers.empty()) {
-    all.push_back({"ROS 2 discovers by multicast, the deployment does not",
-                   "write " + line_that_mends(deployment.network.interfaces) +
-                       ", or name this host in ROS_STATIC_PEERS"});
+             deployment.network.discovery != Discovery::multicast) {
+    // Were they to discover each other all the same, its messages would be too large.
+    all.push_back(
+        {"ROS 2 discovers by multicast and sends packets above 1372 bytes, the "
+         "deployment does not take them",
+         "write " + line_that_mends(deployment.network.interfaces)});
   }
   return all;
 }

@@ -42,8 +42,13 @@ std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const ParticipantConfig&
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   // What is larger DDS divides, and repeats a part that was lost. IP would have to repeat all, and
   // on links that lose the kernel's memory for incomplete datagrams is soon full, which lets none
-  // arrive for half a minute. With security handshakes are too large, and are not divided.
-  if (!config.network.interfaces.empty() && !config.security) udp->maxMessageSize = one_packet;
+  // arrive for half a minute. With security handshakes are too large, and are not divided. Nor by
+  // multicast, where programs of others are met, such as ROS 2: Fast DDS receives no larger
+  // messages than it sends, and theirs are.
+  if (!config.network.interfaces.empty() && !config.security &&
+      config.network.discovery != Discovery::multicast) {
+    udp->maxMessageSize = one_packet;
+  }
   udp->interfaceWhiteList = addresses;
   udp->maxInitialPeersRange = max_participants;
   udp->sendBufferSize = socket_buffer_bytes;

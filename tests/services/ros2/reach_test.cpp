@@ -66,7 +66,6 @@ TEST(Obstacles, EachNamesTheLineThatMendsIt) {
        {.multicast_interfaces = {"eth0"}},
        {}},
       {"peers", on({"eth0"}), {}, {"network: {interfaces: [eth0], discovery: multicast}"}},
-      {"peers on both sides", on({"eth0"}), {.static_peers = "10.0.0.2"}, {}},
       {"off", on({"eth0"}, Discovery::multicast), {.discovery_range = "OFF"}, {"SUBNET"}},
       {"domains", on({"eth0"}, Discovery::multicast), {.domain_id = "7"}, {"domain: 7"}},
       {"same domain", on({"eth0"}, Discovery::multicast, 7), {.domain_id = "7"}, {}},
