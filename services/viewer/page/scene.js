@@ -81,8 +81,8 @@ export class Scene {
   // A map comes in parts, of which the newest counts; another map takes the place of all.
   addPart(topic, entry) {
     const value = decode(topic.types, topic.type, entry.bytes);
-    if (topic.map !== value.map) topic.parts = new Map();
-    topic.map = value.map;
+    if (!topic.parts || topic.begun !== value.begun) topic.parts = new Map();
+    topic.begun = value.begun;
     topic.parts.set(value.part ?? 0, value.lines);
   }
   mapLines(topic) {
