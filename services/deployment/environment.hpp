@@ -15,7 +15,8 @@ using Lookup = std::function<std::optional<std::string>(const std::string& name)
 [[nodiscard]] std::optional<std::string> environment_variable(const std::string& name);
 
 /// `text` with ${NAME} and ${NAME:-default} replaced; as in a shell, the default also stands in for
-/// an empty variable. Throws std::invalid_argument when a variable is not set or the form is wrong.
+/// an empty variable, and may have variables itself. Throws std::invalid_argument when a variable
+/// is not set, the form is wrong, or the text becomes longer than 4096 bytes.
 [[nodiscard]] std::string replace_variables(const std::string& text, const Lookup& lookup);
 
 }  // namespace quoin

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/text/printable.hpp"
 #include "services/deployment/environment.hpp"
 
 namespace quoin {
@@ -55,6 +56,10 @@ ParameterSettings read_parameters(const Entry& entry, const ServiceConfig& servi
     } catch (const std::invalid_argument& error) {
       problems.add(parameter.value_at, place + ": " + error.what());
       settings.push_back(std::move(setting));  // it is there, if only with a wrong value
+      continue;
+    }
+    if (!is_printable(setting.text)) {
+      problems.add(parameter.value_at, place + " must be one line of printable characters");
       continue;
     }
     if (known != nullptr) check_setting(setting, parameter, service, *known, problems);

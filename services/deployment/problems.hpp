@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/text/printable.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin {
@@ -17,13 +19,18 @@ class Problems {
   /// With "" for `file`, messages name no place.
   explicit Problems(std::filesystem::path file) : file_(std::move(file)) {}
 
-  void add(Position where, std::string what) { problems_.emplace_back(where, std::move(what)); }
+  /// `what` may quote the file, whoever wrote it.
+  void add(Position where, std::string_view what) {
+    problems_.emplace_back(where, printable(what, Lines::one, longest_problem));
+  }
   [[nodiscard]] bool empty() const { return problems_.empty(); }
 
   /// Throws DeploymentError with all problems in the order of the file, if there are any.
   void raise() const;
 
  private:
+  static constexpr std::size_t longest_problem = 1000;  // [byte]
+
   std::filesystem::path file_;
   std::vector<std::pair<Position, std::string>> problems_;
 };

@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
+#include <cerrno>
+#include <fcntl.h>
 #include <optional>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
 
 #include "core/parameters/parameter.hpp"
+#include "core/text/printable.hpp"
 #include "services/deployment/deployment.hpp"
 #include "services/deployment/network_entries.hpp"
 #include "services/deployment/problems.hpp"
@@ -16,9 +21,25 @@ namespace quoin {
 
 namespace {
 
-constexpr std::size_t largest_file = 1U << 20U;  // [byte]
+constexpr std::size_t largest_file = 256U << 10U;  // [byte] for a thousand bytes a service
 constexpr std::size_t most_services = 256;
 constexpr int highest_domain = 232;
+
+/// Where a text is not UTF-8, or has characters that a terminal does not show.
+std::optional<Position> first_unprintable(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  Position at{1, 1};
+  while (!text.empty()) {
+    const Utf8Character character = first_character(text);
+    const bool layout =
+        character.code == U'\n' || character.code == U'\r' || character.code == U'\t';
+    if (character.size == 0 || !(layout || is_printable(character.code))) return at;
+    at = character.code == U'\n' ? Position{at.line + 1, 1} : Position{at.line, at.column + 1};
+    text.remove_prefix(character.size);
+  }
+  return std::nullopt;
+}
 
 class Reader {
  public:
@@ -28,6 +49,11 @@ class Reader {
   }
 
   Deployment read(const std::string& text) {
+    if (const auto at = first_unprintable(text)) {
+      problems_.add(*at,
+                    "a byte that is no text; write the file in UTF-8, without control characters");
+      problems_.raise();
+    }
     const std::optional<YAML::Node> root = load_yaml(text, problems_);
     if (root) read_root(*root);
     deployment_.services = wire(drafts_, deployment_.name_space, kinds_, problems_);
@@ -147,7 +173,7 @@ class Reader {
 Deployment parse_deployment(const std::string& text, const std::filesystem::path& file,
                             const KindList& kinds) {
   if (text.size() > largest_file)
-    fail(file, "larger than 1 MiB; a deployment file is a few kilobytes");
+    fail(file, "larger than 256 KiB; a deployment file is a few kilobytes");
   return Reader(file, kinds).read(text);
 }
 
@@ -164,14 +190,24 @@ std::string read_deployment(const std::filesystem::path& file) {
   if (error) fail(file, "cannot be read: " + error.message());
   if (std::filesystem::is_directory(status)) fail(file, "is a directory; name the file in it");
   if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(file, "cannot be opened; check its permissions");
+  // Some files of /proc are regular and have a reader wait all the same.
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) fail(file, "cannot be opened; check its permissions");
   // One byte more than allowed distinguishes too large from just fitting, whatever the size of the
   // file.
   std::string text(largest_file + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) fail(file, "cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::size_t size = 0;
+  ssize_t count = 0;
+  while (size < text.size()) {
+    count = ::read(descriptor, text.data() + size, text.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  const int reason = errno;
+  ::close(descriptor);
+  if (count < 0) fail(file, "cannot be read: " + std::generic_category().message(reason));
+  text.resize(size);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include "core/parameters/parameter.hpp"
+#include "core/text/printable.hpp"
 
 namespace quoin {
 
@@ -120,6 +121,11 @@ std::optional<std::string> read_text(const Entry& entry, Problems& problems) {
   if (!entry.value.IsScalar()) {
     problems.add(entry.value_at,
                  "'" + entry.key + "' must be a single value, not " + what_is(entry.value));
+    return std::nullopt;
+  }
+  // Escapes make what the file itself does not have.
+  if (!is_printable(entry.value.Scalar())) {
+    problems.add(entry.value_at, "'" + entry.key + "' must be one line of printable characters");
     return std::nullopt;
   }
   return entry.value.Scalar();

@@ -156,6 +156,7 @@ class Check {
     const std::string governance = read(trust.governance, copy_trust);
     const std::string certificate = read(files.certificate, make + " --force makes it");
     const std::string private_key = read(files.private_key, make + " makes it");
+    check_mode(files.private_key);
     const std::string permissions = read(files.permissions, renew);
     if (!problems_.empty()) return problems_;
     attempt(trust.authority, copy_trust, [&] {
@@ -188,6 +189,16 @@ class Check {
   void require_folder(const std::filesystem::path& folder, const std::string& way_out) {
     if (!std::filesystem::is_directory(folder))
       add("there is no folder " + folder.string(), way_out);
+  }
+
+  /// Whoever reads a key can speak as its owner.
+  void check_mode(const std::filesystem::path& key) {
+    std::error_code error;
+    const auto mode = std::filesystem::status(key, error).permissions();
+    using enum std::filesystem::perms;
+    if (error || (mode & (group_all | others_all)) == none) return;
+    add(key.string() + " can be read or changed by others than its owner",
+        "chmod 600 " + key.string() + ", and replace it if somebody has (quoin keys add --force)");
   }
 
   std::string read(const std::filesystem::path& file, const std::string& way_out) {

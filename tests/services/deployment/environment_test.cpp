@@ -37,6 +37,22 @@ TEST(Environment, UsesTheDefaultForUnsetAndEmptyVariables) {
   EXPECT_EQ(replaced("${UNSET:-a:-b}"), "a:-b");
 }
 
+TEST(Environment, ADefaultMayHaveVariables) {
+  EXPECT_EQ(replaced("${UNSET:-${HOME_DIR}}/x"), "/home/robot/x");
+  EXPECT_EQ(replaced("${UNSET:-a${EMPTY:-${HOME_DIR}}b}}"), "a/home/robotb}");
+  EXPECT_THROW((void)replaced("${UNSET:-${HOME_DIR}"), std::invalid_argument);
+  EXPECT_THROW((void)replaced("${UNSET:-${UNSET}}"), std::invalid_argument);
+  std::string deep;
+  for (int i = 0; i < 100; ++i) deep += "${UNSET:-";
+  EXPECT_THROW((void)replaced(deep + std::string(100, '}')), std::invalid_argument);
+}
+
+TEST(Environment, ValuesDoNotGrowWithoutBound) {
+  std::string text;
+  for (int i = 0; i < 60'000; ++i) text += "${HOME_DIR}";
+  EXPECT_THROW((void)replaced(text), std::invalid_argument);
+}
+
 TEST(Environment, DoesNotReplaceInsideValues) { EXPECT_EQ(replaced("${NESTED}"), "${HOME_DIR}"); }
 
 TEST(Environment, RejectsWhatItCannotReplace) {

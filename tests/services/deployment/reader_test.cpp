@@ -312,7 +312,25 @@ TEST_F(Files, ThatAreMissingOrNoFilesAreErrors) {
 TEST_F(Files, ThatAreTooLargeAreErrors) {
   const auto file = folder_ / "large.yaml";
   std::ofstream(file) << chain << "#" << std::string(1024 * 1024, ' ');
-  EXPECT_THAT(error_of(file), HasSubstr("larger than 1 MiB"));
+  EXPECT_THAT(error_of(file), HasSubstr("larger than 256 KiB"));
+}
+
+TEST_F(Files, AreTextInUtf8) {
+  const auto file = folder_ / "bytes.yaml";
+  std::ofstream(file) << "# l\xC3\xA4ser\n" << chain;
+  EXPECT_EQ(deploy::load_deployment(file).services.size(), 5U);
+  std::ofstream(file) << "# l\xE4ser\n" << chain;
+  EXPECT_THAT(error_of(file), HasSubstr("bytes.yaml:1:4: a byte that is no text"));
+  std::ofstream(file) << chain << "# \x1b[2J\n";
+  EXPECT_THAT(error_of(file), HasSubstr("a byte that is no text"));
+}
+
+TEST_F(Files, DoNotMakeErrorsThatMoveTheCursor) {
+  const auto file = folder_ / "escape.yaml";
+  std::ofstream(file) << "version: \"\\e[2J\"\nnamespace: \"a\\nb\"\n";
+  const std::string error = error_of(file);
+  EXPECT_THAT(error, HasSubstr("\\x1B[2J"));
+  EXPECT_THAT(error, Not(HasSubstr("\x1b")));
 }
 
 TEST_F(Files, AreLoaded) {

@@ -97,6 +97,18 @@ TEST_F(KeyDirectory, SecretsAreForTheOwnerAlone) {
   EXPECT_THAT(read_file(authority_key(keys_)), HasSubstr("BEGIN PRIVATE KEY"));
 }
 
+TEST_F(KeyDirectory, AKeyThatOthersCanReadIsRefused) {
+  const std::filesystem::path key = identity_files(keys_, "front").private_key;
+  for (const auto mode :
+       {std::filesystem::perms::others_read, std::filesystem::perms::group_read}) {
+    std::filesystem::permissions(key, mode, std::filesystem::perm_options::add);
+    const auto problems = key_problems(deployment_, "front");
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0], HasSubstr("chmod 600 " + key.string()));
+    std::filesystem::permissions(key, mode, std::filesystem::perm_options::remove);
+  }
+}
+
 TEST_F(KeyDirectory, NothingIsOverwrittenUnasked) {
   const std::string secret = read_file(authority_key(keys_));
   EXPECT_THAT(thrown_by([&] { make_key_directory(keys_, 10, false); }), HasSubstr("--force"));
