@@ -10,6 +10,7 @@
 
 #include "core/parameters/parameter.hpp"
 #include "core/sensor/sensor_fields.hpp"
+#include "sensor_bridge/mounting.hpp"
 
 namespace quoin::sensor_bridge {
 
@@ -45,7 +46,7 @@ struct EnumNames<sensor_bridge::StampOf> {
 namespace quoin::sensor_bridge {
 
 /// Parameters of scans that a driver publishes as sensor_msgs/LaserScan.
-struct Ros2ScanParameters : SensorDeclaration {
+struct Ros2ScanParameters : SensorDeclaration, Mounting {
   std::string topic = "/scan";
   Reliability reliability = Reliability::best_effort;
   StampOf stamp = StampOf::first_ray;
@@ -68,7 +69,7 @@ struct Ros2ScanParameters : SensorDeclaration {
               "shorter ranges are too close, whatever the messages say"),
         field(&P::range_max, "range_max", "m", 0.01, 10000.0,
               "longer ranges are no return, whatever the messages say")};
-    return std::tuple_cat(own, sensor_fields<P>());
+    return std::tuple_cat(own, mounting_fields<P>(), sensor_fields<P>());
   }
 };
 

@@ -54,7 +54,9 @@ void publish_scans(const Ros2ScanParameters& parameters, const Deployment& deplo
     while (const ros2::LaserScan* message = topic.take()) {
       const bool usable = scans.convert(*message, topic.received(), scan);
       faults.update(scans, source);
-      if (usable && !source.publish(scan)) return;
+      if (!usable) continue;
+      mount(parameters, scan.bearings());
+      if (!source.publish(scan)) return;
     }
   }
 }

@@ -10,13 +10,14 @@
 #include "core/sensor/sensor_fields.hpp"
 #include "core/simulation/scanner.hpp"
 #include "core/simulation/wheel_odometry.hpp"
+#include "sensor_bridge/mounting.hpp"
 
 namespace quoin::sensor_bridge {
 
 /// Parameters of the simulated sensor. It has the noise of range and bearing that it declares. The
 /// defaults are an RPLIDAR S1 at 10 Hz: 9200 samples a second, range noise of 1 cm, bearings in
 /// steps of 0.391 deg.
-struct SimulatedParameters : SensorDeclaration {
+struct SimulatedParameters : SensorDeclaration, Mounting {
   std::string environment = "domestic_room";
   double rate_hz = 10.0;                     ///< [Hz]
   std::int64_t points = 920;                 ///< rays per revolution
@@ -74,7 +75,7 @@ struct SimulatedParameters : SensorDeclaration {
         field(&P::base_frame, "base_frame", "frame of the robot"),
         field(&P::odometry_frame, "odometry_frame", "frame in which odometry is given"),
         field(&P::map_frame, "map_frame", "frame of the true pose: that of the world")};
-    return std::tuple_cat(own, sensor_fields<P>());
+    return std::tuple_cat(own, mounting_fields<P>(), sensor_fields<P>());
   }
 };
 

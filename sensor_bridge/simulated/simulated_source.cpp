@@ -88,6 +88,7 @@ void publish_scans(SimulatedScanner scanner, const SimulatedParameters& paramete
     const double elapsed = std::chrono::duration<double>(revolution.begin - start).count();
     scanner.scan(parameters.speed * elapsed, parameters.speed, rays);
     scan.bearings() = rays.bearings;
+    mount(parameters, scan.bearings());
     scan.ranges() = rays.ranges;
     scan.time_offsets() = rays.time_offsets;
     scan.duration(rays.time_offsets.back());

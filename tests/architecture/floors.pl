@@ -16,6 +16,7 @@ my @floors = (
     [ 'core/',                           0 ],
     [ 'sensor_bridge/number.hpp',        1 ],
     [ 'sensor_bridge/excerpt.hpp',       1 ],
+    [ 'sensor_bridge/mounting.hpp',      1 ],
     [ 'sensor_bridge/range_limits.hpp',  1 ],
     [ 'sensor_bridge/transport/',        1 ],
     [ 'sensor_bridge/rplidar/protocol/', 1 ],
