@@ -21,11 +21,12 @@ bool differs(double measured, double expected) {
 /// The device can be used in spite of these.
 bool is_harmless(Finding finding) {
   return finding == Finding::fine || finding == Finding::health_warning ||
-         finding == Finding::other_baud_rate || finding == Finding::unknown_model;
+         finding == Finding::other_baud_rate || finding == Finding::unknown_model ||
+         finding == Finding::speed_out_of_range;
 }
 
 Check check_health(const DeviceHealth& health) {
-  const std::string code = ", error code " + std::to_string(health.error_code);
+  const std::string code = ": " + health_text(health);
   switch (health.status) {
     case Health::good:
       return {"health", Verdict::good, "good", ""};
@@ -55,7 +56,8 @@ Check check_samples(const Measurement& measurement) {
                                std::to_string(measurement.counts.lost_samples) + " lost, " +
                                std::to_string(measurement.counts.checksum_errors) +
                                " damaged frames";
-  const double expected = measurement.plan ? 1.0 / measurement.plan->mode.sample_period : 0.0;
+  const double declared = measurement.plan ? measurement.plan->mode.sample_period : 0.0;
+  const double expected = declared > 0.0 ? 1.0 / declared : 0.0;
   if (measurement.counts.lost_samples > 0 || measurement.counts.checksum_errors > 0) {
     return {"samples", Verdict::doubtful, measured,
             "use a shorter or better cable, and no USB hub without a supply of its own"};
@@ -65,6 +67,15 @@ Check check_samples(const Measurement& measurement) {
             "the link is too slow or the rotation uneven; try another cable or adapter"};
   }
   return {"samples", Verdict::good, measured, ""};
+}
+
+Check check_period(const Measurement& measurement) {
+  const double declared = measurement.plan ? measurement.plan->mode.sample_period : 0.0;
+  const double measured = measurement.counts.sample_period;
+  const std::string text =
+      (measured > 0.0 ? fixed(measured * 1e6, 2) + " us measured, " : "not measured yet, ") +
+      (declared > 0.0 ? fixed(declared * 1e6, 2) + " us declared" : "none declared");
+  return {"sample period", Verdict::good, text, ""};
 }
 
 Check check_returns(const Measurement& measurement) {
@@ -96,6 +107,7 @@ Checks lidar_checks(const LidarReport& report) {
   if (measurement.revolutions > 0) {
     checks.push_back(check_rotation(measurement));
     checks.push_back(check_samples(measurement));
+    checks.push_back(check_period(measurement));
     checks.push_back(check_returns(measurement));
   }
   for (const Diagnosis& problem : measurement.problems) {

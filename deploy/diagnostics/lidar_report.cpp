@@ -35,6 +35,13 @@ Json to_json(const Measurement& measurement) {
           {"scan_frequency_hz", measurement.frequency},
           {"sample_rate_hz", measurement.sample_rate},
           {"return_share", measurement.return_share},
+          {"sample_period_declared_us",
+           measurement.plan ? Json(measurement.plan->mode.sample_period * 1e6) : Json()},
+          {"sample_period_measured_us", measurement.counts.sample_period > 0.0
+                                            ? Json(measurement.counts.sample_period * 1e6)
+                                            : Json()},
+          {"frames_out_of_line", measurement.counts.out_of_line},
+          {"frames_repeated", measurement.counts.repeated},
           {"lost_samples", measurement.counts.lost_samples},
           {"checksum_errors", measurement.counts.checksum_errors},
           {"problems", problems}};
@@ -48,6 +55,10 @@ std::string hexadecimal(std::uint16_t value) {
 
 void print_line(std::ostream& out, const std::string& name, const std::string& value) {
   out << "  " << name << std::string(name.size() < 16 ? 16 - name.size() : 1, ' ') << value << '\n';
+}
+
+std::string period_text(double seconds) {
+  return seconds > 0.0 ? fixed(seconds * 1e6, 2) + " us" : "no time";
 }
 
 }  // namespace
@@ -65,13 +76,11 @@ void print(const LidarReport& report, std::ostream& out) {
   print_line(out, "serial number", serial_number_text(facts.info));
   print_line(out, "health",
              std::string(name_of(facts.health.status)) +
-                 (facts.health.status == Health::good
-                      ? ""
-                      : ", error code " + std::to_string(facts.health.error_code)));
+                 (facts.health.status == Health::good ? "" : ", " + health_text(facts.health)));
   for (const ScanMode& mode : facts.modes) {
     print_line(out, "scan mode " + std::to_string(mode.id),
                mode.name + ", " + format_name(mode.format) + ", " +
-                   fixed(mode.sample_period * 1e6, 1) + " us a sample, up to " +
+                   period_text(mode.sample_period) + " a sample, up to " +
                    fixed(mode.range_max, 0) + " m" +
                    (mode.id == facts.typical_mode ? ", typical" : ""));
   }
@@ -89,7 +98,15 @@ void print(const LidarReport& report, std::ostream& out) {
                    fixed(measurement.sample_rate / measurement.frequency, 0) + " a revolution, " +
                    fixed(100.0 * measurement.return_share, 0) + " % with a range, " +
                    std::to_string(measurement.counts.lost_samples) + " lost");
+    if (measurement.counts.sample_period > 0.0) {
+      print_line(out, "sample period",
+                 fixed(measurement.counts.sample_period * 1e6, 2) + " us measured, " +
+                     period_text(measurement.plan->mode.sample_period) + " declared");
+    }
   }
+  print_line(out, "x axis",
+             "the device's 0 degrees, bearings counter-clockwise from there; the "
+             "vendor's ROS driver has x at its 180 degrees (angle_offset: 180 deg)");
   if (report.probe.diagnosis.finding != Finding::fine) {
     out << to_text(report.probe.diagnosis) << '\n';
   }
@@ -112,6 +129,7 @@ Json to_json(const LidarReport& report) {
     object["hardware"] = facts.info.hardware;
     object["serial_number"] = serial_number_text(facts.info);
     object["health"] = name_of(facts.health.status);
+    object["health_status"] = facts.health.reported;
     object["health_error_code"] = facts.health.error_code;
     object["scan_modes"] = modes;
     if (facts.speed) {

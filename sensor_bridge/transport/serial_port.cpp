@@ -25,7 +25,7 @@ class SerialPort final : public FileStream {
     if (exclusive_) (void)set_exclusive(descriptor(), false);
   }
 
-  /// The system holds the line since the port was opened. Pseudo-terminals have none.
+  /// Pseudo-terminals have no such line.
   void hold_motor(bool hold) override { (void)set_terminal_ready(descriptor(), hold); }
 
  private:
@@ -82,6 +82,8 @@ std::unique_ptr<Transport> open_serial(const std::string& path, unsigned baud_ra
                          path + ": the adapter cannot do " + std::to_string(baud_rate) + " baud");
   }
   if (error != 0) throw system_error(path, "set up", error);
+  // The system has set the line with the opening: it stops the motor of some devices.
+  stream->hold_motor(false);
   (void)flush_input(port);
   return stream;
 }

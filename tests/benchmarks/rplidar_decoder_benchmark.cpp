@@ -53,7 +53,7 @@ void plain_pass(std::span<const std::uint8_t> bytes, std::size_t piece) {
 }
 
 void decode(std::span<const std::uint8_t> bytes, SampleFormat format) {
-  SampleDecoder decoder(format, 108e-6);
+  SampleDecoder decoder(format);
   SampleBlock block;
   while (decoder.next(bytes, block)) benchmark::DoNotOptimize(&block);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <idl/Odometry.h>
@@ -27,6 +28,7 @@ class RecordingSource : public runtime::Source {
     memory.push_back(scan.ranges().data());
     return !stopping();
   }
+  [[nodiscard]] std::size_t readers() const override { return reader_count; }
   void warn(const std::string& text) override { warnings.push_back(text); }
   void clear_warning(const std::string& text) override { notes.push_back(text); }
   void set_diagnostic(const std::string& name, const std::string& value) override {
@@ -42,6 +44,7 @@ class RecordingSource : public runtime::Source {
     return !stopping();
   }
 
+  std::atomic<std::size_t> reader_count = 1;
   std::size_t stop_after = 10000;  ///< published scans
   std::vector<std::chrono::steady_clock::time_point> deadlines;
   std::vector<msg::Scan> scans;

@@ -111,7 +111,7 @@ std::vector<std::uint8_t> Client::ask(const Request& request, AnswerType type,
 }
 
 Diagnosis Client::no_answer(const Request& request, AnswerType type) const {
-  Diagnosis diagnosis = diagnose_reply(request, type, heard_);
+  Diagnosis diagnosis = diagnose_reply(request, type, heard_, received_bytes_ > 0);
   diagnosis.text = name_ + ": " + diagnosis.text;
   return diagnosis;
 }
@@ -125,22 +125,22 @@ DeviceInfo Client::info(TimeOuts::Time time_out) {
 
 DeviceHealth Client::health() {
   const Request request(Command::health);
-  const auto payload = ask(request, AnswerType::health, time_outs_.answer);
-  const auto health = parse_health(payload);
-  if (!health) {
-    throw DeviceError(wrong_value(name_, "a health of " + std::to_string(payload.front())));
-  }
-  return *health;
+  return parse_health(ask(request, AnswerType::health, time_outs_.answer)).value_or(DeviceHealth{});
 }
 
 SampleTimes Client::sample_times() {
   const Request request(Command::sample_rate);
-  const auto times = parse_sample_times(ask(request, AnswerType::sample_rate, time_outs_.answer));
-  if (!times || times->standard_us == 0) {
-    throw DeviceError(wrong_value(name_, "0 us for each sample"));
-  }
-  return *times;
+  return parse_sample_times(ask(request, AnswerType::sample_rate, time_outs_.answer))
+      .value_or(SampleTimes{});
 }
+
+bool Client::has_motor_pwm() {
+  const auto flags =
+      parse_number(ask(accessory_board_request(), AnswerType::accessory_board, time_outs_.answer));
+  return flags && (*flags & 1) != 0;
+}
+
+void Client::set_motor_pwm(std::uint16_t pwm) { send(motor_pwm_request(pwm)); }
 
 std::vector<std::uint8_t> Client::configuration(ConfigurationKey key,
                                                 std::optional<std::uint16_t> mode) {

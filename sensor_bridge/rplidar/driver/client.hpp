@@ -38,6 +38,10 @@ class Client {
   [[nodiscard]] std::vector<std::uint8_t> configuration(
       ConfigurationKey key, std::optional<std::uint16_t> mode = std::nullopt);
 
+  /// Whether there is an accessory board that drives the motor by PWM.
+  [[nodiscard]] bool has_motor_pwm();
+
+  void set_motor_pwm(std::uint16_t pwm);
   /// In revolutions per minute.
   void set_motor_speed(std::uint16_t speed);
   void hold_motor(bool hold) { transport_.hold_motor(hold); }

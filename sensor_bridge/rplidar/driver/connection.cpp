@@ -21,6 +21,7 @@ int weight(Finding finding) {
     case Finding::unsupported_baud_rate:
       return 0;
     case Finding::no_bytes:
+    case Finding::no_answer:
       return 1;
     case Finding::echo:
       return 2;
@@ -55,6 +56,8 @@ Connection connect(const Opener& open, const std::string& name, unsigned baud_ra
   guard.arm(was_sending && quiet);
   const DeviceInfo info = ask_who(client, quiet, time_outs.probing);
   guard.arm(true);
+  const ModelTraits traits = traits_of(info);
+  if (!traits.may_have_board) guard.driven_by(traits.motor);
   return {
       .guard = std::move(guard), .baud_rate = baud_rate, .info = info, .was_sending = was_sending};
 }

@@ -37,8 +37,8 @@ void ask_modes(Client& client, DeviceFacts& facts) {
     throw DeviceError(wrong_value(facts.endpoint, std::to_string(count) + " scan modes"));
   }
   for (std::uint16_t id = 0; id < count; ++id) {
-    const auto format = sample_format(
-        static_cast<std::uint8_t>(ask_number(client, Key::mode_format, id, facts.endpoint) & 0xFF));
+    const std::vector<std::uint8_t> type = client.configuration(Key::mode_format, id);
+    const auto format = type.empty() ? std::nullopt : sample_format(type.front());
     if (!format) continue;
     const double range = ask_number(client, Key::mode_range, id, facts.endpoint) / 256.0;
     const auto period = parse_sample_time(client.configuration(Key::mode_sample_time, id));
@@ -52,10 +52,29 @@ void ask_modes(Client& client, DeviceFacts& facts) {
       static_cast<std::uint16_t>(ask_number(client, Key::typical_mode, {}, facts.endpoint));
 }
 
+/// Firmware before 1.17 does not know the question, and no express scans.
+SampleTimes old_sample_times(Client& client, const DeviceInfo& info) {
+  constexpr SampleTimes usual{.standard_us = 476, .express_us = 0};
+  if (info.firmware_major * 256 + info.firmware_minor >= 256 + 17) return client.sample_times();
+  try {
+    return client.sample_times();
+  } catch (const DeviceError&) {
+    return usual;
+  }
+}
+
+bool has_motor_pwm(Client& client) {
+  try {
+    return client.has_motor_pwm();
+  } catch (const DeviceError&) {
+    return false;  // no board is there to answer
+  }
+}
+
 /// Devices without a configuration: two modes, and no word of how far they measure.
 void ask_sample_times(Client& client, DeviceFacts& facts) {
   constexpr double range = 12.0;  // [m] of the A1 and A2
-  const SampleTimes times = client.sample_times();
+  const SampleTimes times = old_sample_times(client, facts.info);
   facts.modes.push_back({.id = 0,
                          .name = "Standard",
                          .sample_period = times.standard_us * 1e-6,
@@ -121,12 +140,7 @@ std::optional<std::uint16_t> plan_speed(const DeviceFacts& facts, double scan_fr
                                  short_number(scan_frequency) + " Hz: " + reason,
                          .advice = advice});
   };
-  if (!facts.traits.has_motor_speed) {
-    if (scan_frequency != 0.0) {
-      refuse("the speed of " + model_text(facts.info) + " cannot be set", "leave it out");
-    }
-    return std::nullopt;
-  }
+  if (!facts.traits.has_motor_speed) return std::nullopt;
   if (scan_frequency == 0.0) return facts.speed ? facts.speed->usual : usual_speed;
   const double speed = std::round(60.0 * scan_frequency);
   const double smallest = facts.speed ? std::max<double>(facts.speed->smallest, 1) : 1;
@@ -153,6 +167,8 @@ DeviceFacts ask_facts(Client& client, const std::string& endpoint, unsigned baud
     ask_sample_times(client, facts);
   }
   if (facts.traits.has_motor_speed) facts.speed = ask_speed(client);
+  facts.motor = facts.traits.motor;
+  if (facts.traits.may_have_board && has_motor_pwm(client)) facts.motor = MotorControl::pwm;
   return facts;
 }
 
@@ -165,15 +181,19 @@ ScanPlan plan_scan(const DeviceFacts& facts, const std::string& mode_name, doubl
                  (mode_name.empty() ? "that is typical and can be read" : excerpt(mode_name)),
          .advice = "choose one of: " + names_of(facts.modes)});
   }
-  if (mode->sample_period <= 0.0) {
-    throw DeviceError(wrong_value(
-        facts.endpoint, "no usable time for each sample of scan mode " + excerpt(mode->name)));
-  }
   if (mode->range_max <= 0.0) {
     throw DeviceError(
         wrong_value(facts.endpoint, "no usable range of scan mode " + excerpt(mode->name)));
   }
-  return {.mode = *mode, .speed = plan_speed(facts, scan_frequency)};
+  ScanPlan plan{.mode = *mode, .speed = plan_speed(facts, scan_frequency), .warning = {}};
+  if (scan_frequency != 0.0 && !plan.speed) {
+    plan.warning = {.finding = Finding::speed_out_of_range,
+                    .text = facts.endpoint + ": scan frequency " + short_number(scan_frequency) +
+                            " Hz: the speed of " + model_text(facts.info) +
+                            " cannot be set, it turns at its own",
+                    .advice = "leave it out"};
+  }
+  return plan;
 }
 
 }  // namespace quoin::sensor_bridge::rplidar

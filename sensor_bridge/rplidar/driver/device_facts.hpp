@@ -29,10 +29,12 @@ struct DeviceFacts {
   DeviceInfo info;
   ModelTraits traits;
   DeviceHealth health;
-  /// Those of known sample formats. A period or range that cannot be is 0.
+  /// Those of known sample formats. A period or range that cannot be is 0: the period is measured
+  /// then.
   std::vector<ScanMode> modes;
   std::uint16_t typical_mode = 0;  ///< id
   std::optional<SpeedRange> speed;
+  MotorControl motor = MotorControl::none;
 };
 
 /// Asks an idle device for everything but its health. Throws as Client does.
@@ -43,11 +45,12 @@ struct DeviceFacts {
 struct ScanPlan {
   ScanMode mode;
   std::optional<std::uint16_t> speed;  ///< [rev/min] to be set, where it can be
+  std::optional<Diagnosis> warning;    ///< a wish that the device cannot fulfil
 };
 
 /// `mode_name` in any case, or empty for the device's own choice; `scan_frequency` [Hz], or 0 for
-/// the device's own. Throws SettingsError when it has no such mode or speed, DeviceError when what
-/// it says of the mode cannot be.
+/// the device's own, which it keeps where no speed can be set. Throws SettingsError when it has no
+/// such mode or speed, DeviceError when what it says of the mode cannot be.
 [[nodiscard]] ScanPlan plan_scan(const DeviceFacts& facts, const std::string& mode_name,
                                  double scan_frequency);
 

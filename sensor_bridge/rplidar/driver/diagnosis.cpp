@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, finding_count> names{
     "unplugged",
     "transport-failed",
     "no-bytes",
+    "no-answer",
     "echo",
     "garbage",
     "wrong-length",
@@ -38,6 +39,9 @@ constexpr std::array<std::string_view, finding_count> names{
     "other-format",
     "wrong-rotation",
     "no-revolution",
+    "impossible-rotation",
+    "mixed-frames",
+    "line-too-slow",
 };
 
 Finding finding_of(TransportError::Kind kind) {

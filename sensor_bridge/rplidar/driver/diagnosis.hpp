@@ -27,6 +27,7 @@ enum class Finding {
   transport_failed,
   // Its answers.
   no_bytes,         ///< nothing arrives
+  no_answer,        ///< to one question, though bytes had arrived before
   echo,             ///< what is sent comes back
   garbage,          ///< bytes arrive that are no answer
   wrong_length,     ///< an answer of a length that it never has
@@ -42,13 +43,16 @@ enum class Finding {
   // Its measurements.
   silence,
   damaged_frames,
-  no_frames,       ///< bytes arrive in which there are no frames
-  other_format,    ///< another than the one that was asked for; read all the same
-  wrong_rotation,  ///< it turns at another speed than was asked for
-  no_revolution,   ///< it measures, but does not turn
+  no_frames,            ///< bytes arrive in which there are no frames
+  other_format,         ///< another than the one that was asked for; read all the same
+  wrong_rotation,       ///< it turns at another speed than was asked for
+  no_revolution,        ///< it measures, but does not turn
+  impossible_rotation,  ///< the angles turn at a speed that no device has
+  mixed_frames,         ///< frames that cannot be of one device
+  line_too_slow,        ///< the serial line carries less than the scan mode sends
 };
 
-inline constexpr int finding_count = static_cast<int>(Finding::no_revolution) + 1;
+inline constexpr int finding_count = static_cast<int>(Finding::line_too_slow) + 1;
 
 /// Such as "no-such-port"; the same in all versions.
 [[nodiscard]] std::string_view name_of(Finding finding);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <span>
 #include <utility>
 
 #include "sensor_bridge/rplidar/driver/client.hpp"
+#include "sensor_bridge/rplidar/driver/scan_stream.hpp"
 #include "sensor_bridge/rplidar/driver/stream_watch.hpp"
-#include "sensor_bridge/rplidar/protocol/sample_decoder.hpp"
+#include "sensor_bridge/rplidar/protocol/frame_angles.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -22,11 +24,18 @@ constexpr int most_resets = 3;  // in a row
 /// Then one at another baud rate: it may be another device that does not answer.
 constexpr int attempts_at_known_rate = 7;
 
-/// [s] What a serial line takes for a frame.
-double line_time(SampleFormat format, unsigned baud_rate) {
-  constexpr double bits = 10;  // of a byte, with start and stop
-  if (baud_rate == 0) return 0.0;
-  return static_cast<double>(layout_of(format).bytes) * bits / baud_rate;
+/// Of an accessory board, as the vendor's software sets it.
+constexpr std::uint16_t usual_pwm = 660;
+
+std::string fixed(double value, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// [bit/s] of the line behind the device, which a network kit hides.
+double line_rate(const DeviceFacts& facts) {
+  return facts.baud_rate != 0 ? facts.baud_rate : facts.traits.usual_baud_rate;
 }
 
 Diagnosis diagnosis_of(Finding finding, const std::string& name) {
@@ -44,12 +53,27 @@ Diagnosis diagnosis_of(Finding finding, const std::string& name) {
       diagnosis.text += "bytes arrive that are no measurements";
       diagnosis.advice = "starting anew; if it lasts, check the baud rate and the cable";
       break;
+    case Finding::mixed_frames:
+      diagnosis.text += "measurements arrive that cannot be of one device";
+      diagnosis.advice = "starting anew; if it lasts, see that one device alone is on the line";
+      break;
     default:
       diagnosis.text += "it measures, but does not turn";
       diagnosis.advice = "starting anew; if it lasts, see that it can turn freely";
       break;
   }
   return diagnosis;
+}
+
+Diagnosis impossible_rotation(double rotation, const std::string& name) {
+  const std::string speed =
+      rotation > 0.0 ? "turns at " + fixed(rotation, "%.2f") + " Hz, which no RPLIDAR does"
+                     : "its angles and its times contradict each other";
+  return {.finding = Finding::impossible_rotation,
+          .text = name + ": " + speed + "; nothing of it is published",
+          .advice =
+              "starting anew; if it lasts, see that it turns freely, that one device alone is "
+              "on the line, and that the line is fast enough for the scan mode"};
 }
 
 }  // namespace
@@ -98,7 +122,7 @@ void Driver::run_connection(const Interruption& interruption) {
   enter(DriverState::connecting);
   attempt_begin_ = Clock::now();
   const TimeOuts& time_outs = settings_.time_outs;
-  const Connection connection = find_device(open_, name_, baud_rates(), interruption, time_outs);
+  Connection connection = find(interruption);
   known_baud_rate_ = connection.baud_rate;
   attempts_ = 0;
   Client client(connection.guard.transport(), interruption, time_outs, name_);
@@ -106,15 +130,28 @@ void Driver::run_connection(const Interruption& interruption) {
   leave_protection_stop(client, health);
   DeviceFacts facts = ask_facts(client, name_, connection.baud_rate, connection.info);
   facts.health = health;
+  connection.guard.driven_by(facts.motor);
   const ScanPlan plan = plan_scan(facts, settings_.scan_mode, settings_.scan_frequency);
   connected_ = true;
   settings_errors_ = 0;
   ++counts_.connections;
   listener_.connected(facts, plan);
+  if (health.status == Health::warning) {
+    listener_.problem(
+        {.finding = Finding::health_warning,
+         .text = name_ + ": warns of its health, " + health_text(health),
+         .advice = "it measures all the same; clean it and see that it turns freely"});
+  }
+  if (plan.warning) listener_.problem(*plan.warning);
   // Ever stronger means, until there are measurements for a while: start the scan anew, connect
   // anew, reset the device and connect anew.
   while (true) {
-    recover_from(scan(client, facts, plan, interruption));
+    const Diagnosis end = scan(client, facts, plan, interruption);
+    if (end.finding == Finding::fine) {
+      stand_by(connection, client, facts.motor);
+      continue;
+    }
+    recover_from(end);
     ++failures_;
     if (failures_ > 1) break;
     (void)client.stop();
@@ -126,7 +163,7 @@ void Driver::leave_protection_stop(Client& client, DeviceHealth& health) {
   while (health.status == Health::error) {
     const Diagnosis diagnosis{
         .finding = Finding::protection_stop,
-        .text = name_ + ": in protection stop, error code " + std::to_string(health.error_code),
+        .text = name_ + ": in protection stop, " + health_text(health),
         .advice = "it is reset a few times; see that it can turn freely, or switch it off and on"};
     ++counts_.recoveries[static_cast<std::size_t>(diagnosis.finding)];
     report(diagnosis);
@@ -150,69 +187,114 @@ bool Driver::reset(Client& client) {
 Diagnosis Driver::scan(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
                        const Interruption& interruption) {
   enter(DriverState::starting);
-  client.hold_motor(false);
-  if (plan.speed) {
-    client.set_motor_speed(*plan.speed);
-    wait_until(interruption, Clock::now() + 10ms);  // as the vendor's software does
-  }
+  start_motor(client, facts.motor, plan, interruption);
   try {
-    const ScanMode mode = mode_of(client.start_scan(plan.mode), facts, plan.mode);
-    return diagnosis_of(measure(client, facts, plan, mode), name_);
+    const auto format = sample_format(client.start_scan(plan.mode).type);
+    return measure(client, facts, plan,
+                   mode_of(format.value_or(plan.mode.format), facts, plan.mode));
   } catch (const DeviceError& error) {
     return error.diagnosis();
   }
 }
 
-ScanMode Driver::mode_of(const Descriptor& descriptor, const DeviceFacts& facts,
-                         const ScanMode& wanted) {
-  const SampleFormat format = sample_format(descriptor.type).value_or(wanted.format);
+void Driver::stand_by(const Connection& connection, Client& client, MotorControl motor) {
+  enter(DriverState::standby);
+  stop_motor(connection.guard.transport(), motor);
+  // An unplugged device is noticed while it is read from.
+  while (!listener_.is_wanted()) (void)client.read(Clock::now() + 100ms);
+}
+
+void Driver::start_motor(Client& client, MotorControl motor, const ScanPlan& plan,
+                         const Interruption& interruption) {
+  client.hold_motor(false);
+  if (motor == MotorControl::pwm) client.set_motor_pwm(usual_pwm);
+  if (plan.speed) client.set_motor_speed(*plan.speed);
+  // As the vendor's software does.
+  if (motor == MotorControl::pwm || plan.speed) wait_until(interruption, Clock::now() + 10ms);
+}
+
+ScanMode Driver::mode_of(SampleFormat format, const DeviceFacts& facts, const ScanMode& wanted) {
   if (format == wanted.format) return wanted;
   report({.finding = Finding::other_format,
           .text = name_ + ": sends " + format_name(format) + " in scan mode " + wanted.name +
                   ", not " + format_name(wanted.format),
           .advice = "read all the same"});
   const auto other = std::ranges::find(facts.modes, format, &ScanMode::format);
-  if (other != facts.modes.end() && other->sample_period > 0.0) return *other;
+  if (other != facts.modes.end()) return *other;
   ScanMode mode = wanted;
   mode.format = format;
   return mode;
 }
 
-Finding Driver::measure(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
-                        const ScanMode& mode) {
+void Driver::warn_of_line(const DeviceFacts& facts, const ScanMode& mode) {
+  if (facts.baud_rate == 0 || mode.sample_period <= 0.0) return;
+  const FrameLayout layout = layout_of(mode.format);
+  const double needed = 10.0 * static_cast<double>(layout.bytes) /
+                        (static_cast<double>(layout.samples) * mode.sample_period);
+  if (needed <= facts.baud_rate) return;
+  listener_.problem(
+      {.finding = Finding::line_too_slow,
+       .text = name_ + ": the line carries " + std::to_string(facts.baud_rate) +
+               " bits a second, and scan mode " + mode.name + " sends " + fixed(needed, "%.0f") +
+               ": measurements get lost",
+       .advice = "choose a scan mode that sends less, or an adapter with a higher baud rate"});
+}
+
+Diagnosis Driver::measure(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
+                          const ScanMode& announced) {
   const TimePoint start = Clock::now();
-  SampleDecoder decoder(mode.format, mode.sample_period);
-  RevolutionAssembler assembler(mode.sample_period, line_time(mode.format, facts.baud_rate));
+  const TimePoint spun_up = start + settings_.time_outs.spin_up;
+  std::optional<ScanStream> stream(std::in_place, announced, line_rate(facts), plan.mode.format);
   StreamWatch watch(settings_.time_outs, start);
-  RotationWatch rotation(plan.speed, start + settings_.time_outs.spin_up);
-  SampleBlock block;
-  Revolution revolution;
+  RotationWatch rotation(plan.speed, spun_up);
   DecoderCounts counted;
-  std::uint64_t stream_bytes = 0;
+  std::uint64_t lost = 0;
+  warn_of_line(facts, announced);
+  TimePoint wanted = start;
   while (true) {
-    std::span<const std::uint8_t> bytes = client.read(Clock::now() + 100ms);
+    const std::span<const std::uint8_t> bytes = client.read(Clock::now() + 100ms);
     const TimePoint now = Clock::now();
-    stream_bytes += bytes.size();
-    while (decoder.next(bytes, block)) {
-      if (!assembler.add(block, now, revolution)) continue;
+    stream->take(bytes, now, [&](const Revolution& revolution) {
       watch.note_revolution(now);
-      hand_over(revolution, mode);
+      note_revolution(revolution, stream->mode());
       if (const auto measured = rotation.note(revolution)) {
         listener_.problem({.finding = Finding::wrong_rotation,
                            .text = name_ + ": turns at " + std::to_string(std::lround(*measured)) +
                                    " rev/min, not at " + std::to_string(*plan.speed),
                            .advice = "see that it can turn freely, and that its power suffices"});
       }
+    });
+    if (const auto format = stream->other_format()) {
+      stream.emplace(mode_of(*format, facts, stream->mode()), line_rate(facts), *format);
+      watch = StreamWatch(settings_.time_outs, now);
+      counted = {};
+      lost = 0;
+      continue;
     }
-    counts_.checksum_errors += decoder.counts().checksum_errors - counted.checksum_errors;
-    counts_.skipped_bytes += decoder.counts().skipped_bytes - counted.skipped_bytes;
-    counted = decoder.counts();
-    if (const auto finding = watch.judge(now, counted, stream_bytes)) return *finding;
+    const DecoderCounts& counts = stream->counts();
+    counts_.checksum_errors += counts.checksum_errors - counted.checksum_errors;
+    counts_.skipped_bytes += counts.skipped_bytes - counted.skipped_bytes;
+    counts_.out_of_line += counts.out_of_line - counted.out_of_line;
+    counts_.repeated += counts.repeated - counted.repeated;
+    counts_.lost_samples += stream->lost_samples() - std::exchange(lost, stream->lost_samples());
+    counted = counts;
+    if (const auto finding = watch.judge(now, counted, stream->bytes())) {
+      return diagnosis_of(*finding, name_);
+    }
+    const auto impossible = stream->impossible_rotation();
+    if (impossible && (*impossible > fastest_rotation || now > spun_up)) {
+      return impossible_rotation(*impossible, name_);
+    }
+    if (settings_.idle_stop.count() > 0) {
+      if (listener_.is_wanted()) wanted = now;
+      if (now - wanted >= settings_.idle_stop) return {};
+    }
     if (watch.stable(now)) failures_ = resets_ = 0;
+    counts_.sample_period = stream->measured_period().value_or(counts_.sample_period);
   }
 }
 
-void Driver::hand_over(const Revolution& revolution, const ScanMode& mode) {
+void Driver::note_revolution(const Revolution& revolution, const ScanMode& mode) {
   if (state_ != DriverState::measuring) {
     enter(DriverState::measuring);
     reported_.reset();
@@ -220,12 +302,6 @@ void Driver::hand_over(const Revolution& revolution, const ScanMode& mode) {
   }
   ++counts_.revolutions;
   counts_.samples += revolution.angle_q16.size();
-  if (revolution.gaps > 0) {
-    const double time = std::chrono::duration<double>(revolution.end - revolution.begin).count();
-    const double due = std::round(time / mode.sample_period);
-    const auto samples = static_cast<double>(revolution.angle_q16.size());
-    counts_.lost_samples += static_cast<std::uint64_t>(std::max(0.0, due - samples));
-  }
   listener_.revolution(revolution, mode);
 }
 
@@ -237,6 +313,33 @@ void Driver::wait_before_next_attempt(Finding failure, const Interruption& inter
   wait_until(interruption,
              std::max(attempt_begin_ + pause, Clock::now() + time_outs.shortest_pause));
   pause_ = std::min(2 * pause_, time_outs.longest_pause);
+}
+
+/// Where nothing answers at the baud rate that is set, the others are tried for a better word.
+Connection Driver::find(const Interruption& interruption) {
+  const std::vector<unsigned> rates = baud_rates();
+  const TimeOuts& time_outs = settings_.time_outs;
+  try {
+    return find_device(open_, name_, rates, interruption, time_outs);
+  } catch (const DeviceError&) {
+    const bool set = settings_.endpoint.kind == Endpoint::Kind::serial && settings_.baud_rate != 0;
+    if (!set || attempts_ % (attempts_at_known_rate + 1) != 0) throw;
+    std::vector<unsigned> others = baud_rates_for(settings_.endpoint, settings_.baud_rate);
+    others.erase(others.begin());
+    unsigned answers_at = 0;
+    try {
+      answers_at = find_device(open_, name_, others, interruption, time_outs).baud_rate;
+    } catch (const DeviceError&) {
+      // Then what was seen at the rate that is set says more.
+    }
+    if (answers_at == 0) throw;
+    throw DeviceError({.finding = Finding::other_baud_rate,
+                       .text = name_ + ": answers at " + std::to_string(answers_at) +
+                               " baud, not at the " + std::to_string(settings_.baud_rate) +
+                               " that are set",
+                       .advice = "set serial_baudrate to " + std::to_string(answers_at) +
+                                 ", or to 0 to have it found"});
+  }
 }
 
 std::vector<unsigned> Driver::baud_rates() const {

@@ -34,13 +34,19 @@ class Driver {
   [[nodiscard]] bool reset(Client& client);
   [[nodiscard]] Diagnosis scan(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
                                const Interruption& interruption);
-  [[nodiscard]] Finding measure(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
-                                const ScanMode& mode);
-  [[nodiscard]] ScanMode mode_of(const Descriptor& descriptor, const DeviceFacts& facts,
+  /// Returns what it ended with: fine when nobody wants the revolutions.
+  [[nodiscard]] Diagnosis measure(Client& client, const DeviceFacts& facts, const ScanPlan& plan,
+                                  const ScanMode& announced);
+  [[nodiscard]] ScanMode mode_of(SampleFormat format, const DeviceFacts& facts,
                                  const ScanMode& wanted);
-  void hand_over(const Revolution& revolution, const ScanMode& mode);
+  void stand_by(const Connection& connection, Client& client, MotorControl motor);
+  void start_motor(Client& client, MotorControl motor, const ScanPlan& plan,
+                   const Interruption& interruption);
+  void warn_of_line(const DeviceFacts& facts, const ScanMode& mode);
+  void note_revolution(const Revolution& revolution, const ScanMode& mode);
   void wait_before_next_attempt(Finding failure, const Interruption& interruption);
   [[nodiscard]] std::vector<unsigned> baud_rates() const;
+  [[nodiscard]] Connection find(const Interruption& interruption);
 
   void enter(DriverState state);
   void report(const Diagnosis& diagnosis);

@@ -12,6 +12,8 @@ std::string_view name_of(DriverState state) {
       return "starting";
     case DriverState::measuring:
       return "measuring";
+    case DriverState::standby:
+      return "standby";
     case DriverState::recovering:
       return "recovering";
     case DriverState::waiting:

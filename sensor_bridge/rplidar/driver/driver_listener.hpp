@@ -16,6 +16,7 @@ enum class DriverState {
   connecting,  ///< looks for the device
   starting,    ///< the motor spins up
   measuring,
+  standby,     ///< the motor is stopped, as nobody wants the measurements
   recovering,  ///< something went wrong with the measurements
   waiting,     ///< until the next attempt to connect
   stopped,
@@ -29,10 +30,13 @@ struct DriverCounts {
   std::uint64_t connections = 0;
   std::uint64_t revolutions = 0;
   std::uint64_t samples = 0;       ///< of these revolutions
-  std::uint64_t lost_samples = 0;  ///< that are missing in these revolutions
+  std::uint64_t lost_samples = 0;  ///< that are missing in these revolutions or between them
   std::uint64_t checksum_errors = 0;
-  std::uint64_t skipped_bytes = 0;                        ///< passed over in search of measurements
-  std::uint64_t resets = 0;                               ///< of the device by this driver
+  std::uint64_t skipped_bytes = 0;  ///< passed over in search of measurements
+  std::uint64_t out_of_line = 0;    ///< frames that fit none before them
+  std::uint64_t repeated = 0;       ///< frames that came twice, and were dropped
+  double sample_period = 0.0;       ///< [s] as measured; 0 until it is known
+  std::uint64_t resets = 0;         ///< of the device by this driver
   std::array<std::uint64_t, finding_count> recoveries{};  ///< by what made them necessary
 
   [[nodiscard]] std::uint64_t recoveries_from(Finding finding) const {
@@ -46,6 +50,8 @@ class DriverListener {
  public:
   virtual ~DriverListener() = default;
 
+  /// Whether anybody wants the revolutions; asked often.
+  [[nodiscard]] virtual bool is_wanted() { return true; }
   virtual void state_changed(DriverState /*state*/) {}
   /// Before each first scan on a connection.
   virtual void connected(const DeviceFacts& facts, const ScanPlan& plan) = 0;

@@ -14,8 +14,8 @@ struct TimeOuts {
   using Time = std::chrono::milliseconds;
 
   Time connection{1000};       ///< of TCP
-  Time probing{250};           ///< for the first answer at a baud rate; asked twice
-  Time answer{500};            ///< to a request, or to one that hands bytes over
+  Time probing{500};           ///< for the first answer at a baud rate; asked twice
+  Time answer{1000};           ///< to a request, or to one that hands bytes over
   Time quiet{50};              ///< without a byte: the device has stopped sending
   Time draining{300};          ///< for it to become quiet
   Time reset{2000};            ///< from a reset until an S1 takes requests again
@@ -35,6 +35,8 @@ struct DriverSettings {
   unsigned baud_rate = 0;       ///< of a serial port; 0 finds it
   std::string scan_mode;        ///< name; empty for the one that the device calls typical
   double scan_frequency = 0.0;  ///< [Hz] revolutions per second; 0 for the device's own
+  /// Time without anybody who wants the revolutions after which the motor is stopped; 0: never.
+  TimeOuts::Time idle_stop{0};
   TimeOuts time_outs;
 };
 

@@ -23,10 +23,12 @@ class Recorder final : public DriverListener {
     result_.plan = plan;
   }
 
-  void revolution(const Revolution& revolution, const ScanMode& /*mode*/) override {
+  void revolution(const Revolution& revolution, const ScanMode& mode) override {
+    if (result_.plan && result_.plan->mode.format != mode.format) result_.plan->mode = mode;
     ++result_.revolutions;
     durations_.push_back(std::chrono::duration<double>(revolution.end - revolution.begin).count());
     samples_ += revolution.distance_q2.size();
+    lost_ += revolution.lost;
     returns_ += revolution.distance_q2.size() -
                 static_cast<std::size_t>(std::ranges::count(revolution.distance_q2, 0U));
   }
@@ -49,8 +51,8 @@ class Recorder final : public DriverListener {
       const auto median = durations.begin() + static_cast<std::ptrdiff_t>(durations.size() / 2);
       std::ranges::nth_element(durations, median);
       result.frequency = 1.0 / *median;
-      result.sample_rate =
-          static_cast<double>(samples_) / std::accumulate(durations.begin(), durations.end(), 0.0);
+      result.sample_rate = static_cast<double>(samples_ + lost_) /
+                           std::accumulate(durations.begin(), durations.end(), 0.0);
     }
     if (samples_ > 0) {
       result.return_share = static_cast<double>(returns_) / static_cast<double>(samples_);
@@ -63,6 +65,7 @@ class Recorder final : public DriverListener {
   Measurement result_;
   std::vector<double> durations_;  // [s] of the revolutions
   std::size_t samples_ = 0;
+  std::size_t lost_ = 0;
   std::size_t returns_ = 0;
 };
 

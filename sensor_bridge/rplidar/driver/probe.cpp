@@ -16,10 +16,10 @@ std::string identity(const DeviceFacts& facts) {
 }
 
 Diagnosis diagnose(const DeviceFacts& facts, unsigned wanted_baud_rate) {
-  const std::string error_code = std::to_string(facts.health.error_code);
+  const std::string health = health_text(facts.health);
   if (facts.health.status == Health::error) {
     return {.finding = Finding::protection_stop,
-            .text = identity(facts) + ": in protection stop, error code " + error_code,
+            .text = identity(facts) + ": in protection stop, " + health,
             .advice =
                 "see that it can turn freely, then switch it off and on; a running driver "
                 "resets it by itself"};
@@ -32,7 +32,7 @@ Diagnosis diagnose(const DeviceFacts& facts, unsigned wanted_baud_rate) {
   }
   if (facts.health.status == Health::warning) {
     return {.finding = Finding::health_warning,
-            .text = identity(facts) + ": warns of its health, error code " + error_code,
+            .text = identity(facts) + ": warns of its health, " + health,
             .advice = "it measures all the same; clean it and see that it can turn freely"};
   }
   if (!facts.traits.known) {

@@ -33,11 +33,17 @@ bool answers(const Request& request, std::span<const std::uint8_t> payload) {
 }
 
 Diagnosis diagnose_reply(const Request& request, AnswerType type,
-                         std::span<const std::uint8_t> heard) {
+                         std::span<const std::uint8_t> heard, bool spoke_before) {
+  const std::string question = request_text(request);
+  if (heard.empty() && spoke_before) {
+    return {.finding = Finding::no_answer,
+            .text = "no answer to " + question + " in time, though bytes have arrived before",
+            .advice = "check the cable; a device that takes longer needs a longer answer_timeout"};
+  }
   if (heard.empty()) {
     return {
         .finding = Finding::no_bytes,
-        .text = "no answer, not a byte arrives",
+        .text = "no answer to " + question + ", not a byte arrives",
         .advice = "check the device's power and the cable, also that TX and RX are not swapped"};
   }
   const std::size_t sent = request.bytes().size();
@@ -48,12 +54,12 @@ Diagnosis diagnose_reply(const Request& request, AnswerType type,
   }
   if (const auto length = length_of_answer(type, heard)) {
     return {.finding = Finding::wrong_length,
-            .text = "an answer that is announced with " + std::to_string(*length) +
-                    " bytes is of a wrong length or incomplete",
+            .text = "an answer to " + question + " that is announced with " +
+                    std::to_string(*length) + " bytes is of a wrong length or incomplete",
             .advice = "check the cable, and that the device is an RPLIDAR"};
   }
   return {.finding = Finding::garbage,
-          .text = "bytes arrive that are no answer: " + hexadecimal(heard),
+          .text = "bytes arrive that are no answer to " + question + ": " + hexadecimal(heard),
           .advice = "the baud rate is another, or this is not an RPLIDAR"};
 }
 

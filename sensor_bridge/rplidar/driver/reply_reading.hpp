@@ -15,9 +15,10 @@ namespace quoin::sensor_bridge::rplidar {
 /// False for an answer to an earlier question about the configuration.
 [[nodiscard]] bool answers(const Request& request, std::span<const std::uint8_t> payload);
 
-/// Why there is no answer of that type in what was heard behind a request.
+/// Why there is no answer of that type in what was heard behind a request. `spoke_before`: bytes
+/// had arrived before.
 [[nodiscard]] Diagnosis diagnose_reply(const Request& request, AnswerType type,
-                                       std::span<const std::uint8_t> heard);
+                                       std::span<const std::uint8_t> heard, bool spoke_before);
 
 /// For an answer that cannot be meant.
 [[nodiscard]] Diagnosis wrong_value(const std::string& name, const std::string& value);

@@ -10,6 +10,8 @@ namespace {
 /// Less than that in a window says nothing of the rest; an ultra-dense frame has 170.
 constexpr std::uint64_t telling_bytes = 400;
 
+constexpr std::uint64_t telling_frames = 8;
+
 }  // namespace
 
 StreamWatch::StreamWatch(const TimeOuts& time_outs, TimePoint start) : time_outs_(time_outs) {
@@ -23,7 +25,8 @@ std::optional<Finding> StreamWatch::judge(TimePoint now, const DecoderCounts& co
                   .frames = counts.frames,
                   .bytes = bytes,
                   .skipped_bytes = counts.skipped_bytes,
-                  .checksum_errors = counts.checksum_errors};
+                  .checksum_errors = counts.checksum_errors,
+                  .out_of_line = counts.out_of_line};
   if (mark.frames > last_frame_.frames) {
     last_frame_ = mark;
     if (!first_frame_) first_frame_ = now;
@@ -48,7 +51,11 @@ std::optional<Finding> StreamWatch::judge_window(const Mark& now) {
   const std::uint64_t bytes = now.bytes - window_.bytes;
   const std::uint64_t skipped = now.skipped_bytes - window_.skipped_bytes;
   const bool damaged = now.checksum_errors > window_.checksum_errors;
+  const std::uint64_t frames = now.frames - window_.frames;
+  const std::uint64_t out_of_line = now.out_of_line - window_.out_of_line;
   window_ = now;
+  // A motor that begins to turn is out of line as well, but not for long.
+  if (frames >= telling_frames && 4 * out_of_line > frames) return Finding::mixed_frames;
   if (bytes < telling_bytes || 2 * skipped <= bytes) return std::nullopt;
   return damaged ? Finding::damaged_frames : Finding::no_frames;
 }

@@ -32,6 +32,7 @@ class StreamWatch {
     std::uint64_t bytes = 0;
     std::uint64_t skipped_bytes = 0;
     std::uint64_t checksum_errors = 0;
+    std::uint64_t out_of_line = 0;
   };
 
   [[nodiscard]] std::optional<Finding> judge_window(const Mark& now);

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/rplidar/emulator/device_identity.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
+#include "sensor_bridge/number.hpp"
 
 namespace quoin::sensor_bridge::rplidar {
 namespace {
@@ -25,6 +30,138 @@ constexpr std::uint32_t invalid_data = 0x80008000;
 constexpr std::uint32_t unsupported = 0x80008004;
 
 using Bytes = std::vector<std::uint8_t>;
+
+struct ModelMode {
+  std::string_view name;
+  double microseconds = 0.0;
+  double range = 0.0;  // [m]
+  SampleFormat format = SampleFormat::standard;
+};
+
+struct Model {
+  std::string_view name;
+  std::uint8_t number;
+  std::uint8_t firmware_major;
+  std::uint8_t firmware_minor;
+  std::uint8_t hardware;
+  std::uint32_t baud_rate;
+  MotorControl motor;
+  std::uint16_t slowest;  // [rev/min]
+  std::uint16_t fastest;
+  std::uint16_t typical_mode;
+  std::array<ModelMode, 5> modes;
+};
+
+// Modes and periods as users have posted them from their devices; those of S2 and S3 in ultra-dense
+// capsules are taken from the vendor's data sheets and its software, not from a device.
+constexpr Model models[] = {
+    {"A1",
+     0x18,
+     1,
+     29,
+     7,
+     115200,
+     MotorControl::line,
+     300,
+     600,
+     3,
+     {{{"Standard", 508.0, 12.0, SampleFormat::standard},
+       {"Express", 254.0, 12.0, SampleFormat::express},
+       {"Boost", 127.0, 12.0, SampleFormat::ultra},
+       {"Sensitivity", 127.0, 12.0, SampleFormat::ultra},
+       {"Stability", 203.0, 12.0, SampleFormat::express}}}},
+    {"A2",
+     0x28,
+     1,
+     29,
+     5,
+     115200,
+     MotorControl::pwm,
+     300,
+     900,
+     2,
+     {{{"Standard", 500.0, 12.0, SampleFormat::standard},
+       {"Express", 250.0, 12.0, SampleFormat::express},
+       {"Boost", 125.0, 12.0, SampleFormat::ultra}}}},
+    {"A3",
+     0x31,
+     1,
+     29,
+     6,
+     256000,
+     MotorControl::pwm,
+     300,
+     1200,
+     3,
+     {{{"Standard", 252.0, 25.0, SampleFormat::standard},
+       {"Express", 126.0, 25.0, SampleFormat::express},
+       {"Boost", 62.5, 25.0, SampleFormat::ultra},
+       {"Sensitivity", 62.5, 25.0, SampleFormat::ultra},
+       {"Stability", 100.0, 15.0, SampleFormat::ultra}}}},
+    {"C1",
+     0x41,
+     1,
+     1,
+     18,
+     460800,
+     MotorControl::none,
+     600,
+     600,
+     1,
+     {{{"Standard", 200.0, 16.0, SampleFormat::standard},
+       {"DenseBoost", 200.0, 16.0, SampleFormat::dense}}}},
+    {"S1",
+     0x61,
+     1,
+     28,
+     18,
+     256000,
+     MotorControl::speed,
+     480,
+     900,
+     1,
+     {{{"Standard", 244.0, 40.0, SampleFormat::standard},
+       {"DenseBoost", 108.0, 40.0, SampleFormat::dense}}}},
+    {"S2",
+     0x71,
+     1,
+     1,
+     18,
+     1000000,
+     MotorControl::speed,
+     480,
+     900,
+     1,
+     {{{"Standard", 62.5, 16.0, SampleFormat::standard},
+       {"DenseBoost", 31.25, 30.0, SampleFormat::dense}}}},
+    {"S3",
+     0x81,
+     1,
+     1,
+     18,
+     1000000,
+     MotorControl::speed,
+     480,
+     1200,
+     1,
+     {{{"Standard", 62.5, 16.0, SampleFormat::standard},
+       {"UltraDense", 31.25, 40.0, SampleFormat::ultra_dense}}}},
+};
+
+std::pair<std::uint8_t, std::uint8_t> parse_firmware(const std::string& text, const Model& model) {
+  if (text.empty()) return {model.firmware_major, model.firmware_minor};
+  const std::size_t point = text.find('.');
+  const auto major =
+      sensor_bridge::parse_number<std::uint8_t>(std::string_view(text).substr(0, point));
+  const auto minor =
+      point == std::string::npos
+          ? std::nullopt
+          : sensor_bridge::parse_number<std::uint8_t>(std::string_view(text).substr(point + 1));
+  if (!major || !minor) {
+    throw std::invalid_argument("firmware " + excerpt(text) + " is none; write it like 1.15");
+  }
+  return {*major, *minor};
+}
 
 template <class T>
 void append(Bytes& bytes, T value) {
@@ -85,9 +222,9 @@ std::optional<Bytes> value_of(const DeviceIdentity& identity, std::uint32_t key,
       return bytes;
     }
     case static_cast<std::uint32_t>(ConfigurationKey::smallest_speed):
-      return little_endian(slowest_motor);
+      return little_endian(identity.slowest_speed);
     case static_cast<std::uint32_t>(ConfigurationKey::largest_speed):
-      return little_endian(fastest_motor);
+      return little_endian(identity.fastest_speed);
     case static_cast<std::uint32_t>(ConfigurationKey::mode_count):
       return little_endian(static_cast<std::uint16_t>(identity.modes.size()));
     case static_cast<std::uint32_t>(ConfigurationKey::typical_mode):
@@ -120,54 +257,36 @@ std::optional<std::uint32_t> key_of(std::span<const std::uint8_t> request) {
   return parse_number(request.first(4));
 }
 
-std::string command_name(Command command) {
-  switch (command) {
-    case Command::scan:
-      return "scan";
-    case Command::force_scan:
-      return "force_scan";
-    case Command::stop:
-      return "stop";
-    case Command::reset:
-      return "reset";
-    case Command::info:
-      return "info";
-    case Command::health:
-      return "health";
-    case Command::sample_rate:
-      return "sample_rate";
-    case Command::express_scan:
-      return "express_scan";
-    case Command::hq_scan:
-      return "hq_scan";
-    case Command::get_configuration:
-      return "get_configuration";
-    case Command::set_configuration:
-      return "set_configuration";
-    case Command::confirm_baud_rate:
-      return "confirm_baud_rate";
-    case Command::motor_speed:
-      return "motor_speed";
-    case Command::motor_pwm:
-      return "motor_pwm";
-    case Command::accessory_board:
-      return "accessory_board";
-  }
-  char unknown[32];
-  std::snprintf(unknown, sizeof unknown, "unknown command 0x%02X", static_cast<unsigned>(command));
-  return unknown;
-}
-
 }  // namespace
 
-DeviceIdentity s1_identity(const EmulatorSettings& settings) {
+DeviceIdentity identity_of(const EmulatorSettings& settings) {
+  const auto model = std::ranges::find(models, settings.model, &Model::name);
+  if (model == std::end(models)) {
+    std::vector<std::string> names;
+    for (const Model& known : models) names.emplace_back(known.name);
+    throw std::invalid_argument("there is no emulated model " + excerpt(settings.model) +
+                                suggestion(settings.model, names) + "; models: " + model_names());
+  }
   DeviceIdentity identity;
-  identity.info = {0x61, 1, 28, 18, parse_serial_number(settings.serial_number)};
-  identity.usual_speed = static_cast<std::uint16_t>(std::lround(settings.frequency * 60.0));
-  identity.baud_rate = static_cast<std::uint32_t>(settings.baud_rate);
-  identity.modes = {{0, "Standard", 244e-6, 40.0, SampleFormat::standard},
-                    {1, "DenseBoost", 108e-6, 40.0, SampleFormat::dense}};
+  const auto [major, minor] = parse_firmware(settings.firmware, *model);
+  identity.info = {model->number, major, minor, model->hardware,
+                   parse_serial_number(settings.serial_number)};
+  identity.motor = model->motor;
+  identity.slowest_speed = model->slowest;
+  identity.fastest_speed = model->fastest;
+  identity.usual_speed = static_cast<std::uint16_t>(std::lround(
+      std::clamp(settings.frequency * 60.0, double(model->slowest), double(model->fastest))));
+  identity.baud_rate =
+      settings.baud_rate == 0 ? model->baud_rate : static_cast<std::uint32_t>(settings.baud_rate);
+  for (const ModelMode& mode : model->modes) {
+    if (mode.name.empty()) break;
+    identity.modes.push_back({static_cast<std::uint16_t>(identity.modes.size()),
+                              std::string(mode.name), mode.microseconds * 1e-6, mode.range,
+                              mode.format});
+  }
+  identity.typical_mode = model->typical_mode;
   if (settings.all_formats) {
+    if (settings.model != "S1") throw std::invalid_argument("all_formats is of an S1");
     // As many samples as 256000 bit/s can carry.
     identity.modes.push_back({2, "Express", 125e-6, 40.0, SampleFormat::express});
     identity.modes.push_back({3, "HQ", 500e-6, 40.0, SampleFormat::hq});
@@ -177,11 +296,17 @@ DeviceIdentity s1_identity(const EmulatorSettings& settings) {
   return identity;
 }
 
+std::string model_names() {
+  std::string names;
+  for (const Model& model : models) names += (names.empty() ? "" : ", ") + std::string(model.name);
+  return names;
+}
+
 std::optional<Bytes> configuration_answer(const DeviceIdentity& identity,
                                           std::span<const std::uint8_t> request) {
   const std::optional<std::uint32_t> key = key_of(request);
   if (!key) return std::nullopt;
-  const std::optional<Bytes> value = value_of(identity, *key, request.subspan(4));
+  std::optional<Bytes> value = value_of(identity, *key, request.subspan(4));
   if (!value) return std::nullopt;
   return encode_configuration(static_cast<ConfigurationKey>(*key), *value);
 }
@@ -199,27 +324,6 @@ std::optional<Bytes> set_configuration_answer(DeviceIdentity& identity,
     }
   }
   return encode_configuration(static_cast<ConfigurationKey>(*key), little_endian(result));
-}
-
-std::string request_text(const Request& request) {
-  std::string result = command_name(request.command());
-  const std::span<const std::uint8_t> payload = request.payload();
-  char detail[48] = "";
-  if (request.command() == Command::express_scan && !payload.empty()) {
-    std::snprintf(detail, sizeof detail, " in mode %u", unsigned{payload[0]});
-  } else if (request.command() == Command::motor_speed && payload.size() == 2) {
-    std::snprintf(detail, sizeof detail, " %u rev/min", payload[0] | payload[1] << 8U);
-  } else if (request.command() == Command::get_configuration ||
-             request.command() == Command::set_configuration) {
-    if (const std::optional<std::uint32_t> key = key_of(payload)) {
-      std::snprintf(detail, sizeof detail, " 0x%02X", *key);
-      if (payload.size() == 6) {
-        std::snprintf(detail, sizeof detail, " 0x%02X of mode %u", *key,
-                      payload[4] | payload[5] << 8U);
-      }
-    }
-  }
-  return result + detail;
 }
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -53,15 +53,15 @@ std::string_view state_name(DeviceState state) {
 EmulatedDevice::EmulatedDevice(const EmulatorSettings& settings, World world, TimePoint now,
                                Report report)
     : settings_(checked(settings)),
-      identity_(s1_identity(settings)),
+      identity_(identity_of(settings)),
       range_finder_(std::move(world), settings, now),
       motor_(now),
-      transmitter_(settings.baud_rate),
+      transmitter_(identity_.baud_rate),
       damage_(static_cast<std::uint64_t>(settings.seed) + 1),
       report_(std::move(report)),
       advanced_to_(now),
       reset_until_(now),
-      speed_(settings.frequency) {
+      speed_(identity_.usual_speed / 60.0) {
   for (const Fault& fault : parse_faults(settings.faults)) faults_.add(fault, now);
   change_faults(now);
 }
@@ -92,7 +92,7 @@ std::optional<EmulatedDevice::TimePoint> EmulatedDevice::next_event() const {
   } else if (encoder_) {
     const FrameLayout layout = layout_of(identity_.modes[mode_].format);
     const double on_line =
-        10.0 * static_cast<double>(layout.bytes) / static_cast<double>(settings_.baud_rate);
+        10.0 * static_cast<double>(layout.bytes) / static_cast<double>(identity_.baud_rate);
     consider(sample_time(samples_ - frame_.size() + samples_for_frame() - 1) +
              duration_of(on_line));
   }
@@ -139,7 +139,7 @@ std::optional<EmulatedDevice::TimePoint> EmulatedDevice::next_change() const {
   std::optional<TimePoint> next = faults_.next_change(advanced_to_);
   std::optional<TimePoint> own;
   if (state_ == DeviceState::resetting) own = reset_until_;
-  if (state_ == DeviceState::spinning_up) own = motor_.stable_at();
+  if (state_ == DeviceState::spinning_up && motor_.target() > 0.0) own = motor_.stable_at();
   if (own && (!next || *own < *next)) next = own;
   return next;
 }
@@ -151,7 +151,9 @@ void EmulatedDevice::change(TimePoint now) {
     if (!lasts) faults_.end(FaultKind::health_error, now);
     enter(lasts ? DeviceState::protection_stop : DeviceState::idle, now);
   }
-  if (state_ == DeviceState::spinning_up && now >= motor_.stable_at()) begin_samples(now);
+  if (state_ == DeviceState::spinning_up && motor_.target() > 0.0 && now >= motor_.stable_at()) {
+    begin_samples(now);
+  }
   change_faults(now);
 }
 
@@ -183,8 +185,9 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
     case Command::motor_speed:  // needs no answer, so measuring may go on
       return set_speed(payload, now);
     case Command::motor_pwm:
+      return set_pwm(payload, now);
     case Command::confirm_baud_rate:
-      return;  // not of an S1
+      return;
     default:
       break;
   }
@@ -209,13 +212,17 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
       return answer(AnswerType::info, encode(info), now);
     }
     case Command::health: {
-      const bool error = state_ == DeviceState::protection_stop;
-      return answer(
-          AnswerType::health,
-          encode(error ? DeviceHealth{Health::error, error_of_protection_stop} : DeviceHealth{}),
-          now);
+      DeviceHealth health;
+      if (const auto code = faults_.value(FaultKind::health_warning, now)) {
+        health = {Health::warning, static_cast<std::uint16_t>(*code)};
+      }
+      if (state_ == DeviceState::protection_stop) {
+        health = {Health::error, error_of_protection_stop};
+      }
+      return answer(AnswerType::health, encode(health), now);
     }
     case Command::sample_rate: {
+      if (!identity_.knows_since(1, 17)) return;
       const bool zero = misbehaves(FaultKind::zero_sample_time, now);
       const auto microseconds = [&](std::size_t mode) {
         const double time = zero ? 0.0 : identity_.modes[mode].sample_period * 1e6;
@@ -226,6 +233,7 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
                     now);
     }
     case Command::get_configuration: {
+      if (identity_.info.model < 0x40 && !identity_.knows_since(1, 24)) return;
       DeviceIdentity identity = identity_;
       if (misbehaves(FaultKind::zero_sample_time, now)) {
         for (ScanMode& mode : identity.modes) mode.sample_period = 0.0;
@@ -244,8 +252,9 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
       }
       return;
     case Command::accessory_board: {
-      constexpr std::uint8_t none[4] = {};
-      return answer(AnswerType::accessory_board, none, now);
+      const bool has_pwm = identity_.motor == MotorControl::pwm;
+      const std::uint8_t flags[4] = {static_cast<std::uint8_t>(has_pwm ? 1 : 0)};
+      return answer(AnswerType::accessory_board, flags, now);
     }
     default:
       return;
@@ -253,20 +262,32 @@ void EmulatedDevice::carry_out(const Request& request, TimePoint now) {
 }
 
 void EmulatedDevice::answer(AnswerType type, std::span<const std::uint8_t> payload, TimePoint now) {
-  announce(static_cast<std::uint32_t>(payload.size()), false, static_cast<std::uint8_t>(type), now);
-  transmit(payload, now);
+  std::vector<std::uint8_t> bytes(payload.begin(), payload.end());
+  if (misbehaves(FaultKind::long_answers, now)) {
+    if (type == AnswerType::info) bytes.resize(bytes.size() + 4);
+    if (type == AnswerType::health) bytes.resize(bytes.size() + 1);
+    const bool format = type == AnswerType::configuration && bytes.size() == 5 && bytes[0] == 0x75;
+    if (format) bytes.resize(bytes.size() + 2);
+  }
+  if (const auto pause = faults_.value(FaultKind::slow_answers, now)) {
+    now += duration_of(*pause);
+  }
+  announce(static_cast<std::uint32_t>(bytes.size()), false, static_cast<std::uint8_t>(type), now);
+  transmit(bytes, now);
 }
 
 void EmulatedDevice::start_scan(std::size_t mode, bool wait_for_speed, TimePoint now) {
   if (state_ != DeviceState::idle || mode >= identity_.modes.size()) return;
   mode_ = mode;
   const SampleFormat format = identity_.modes[mode].format;
-  announce(static_cast<std::uint32_t>(layout_of(format).bytes), true,
-           static_cast<std::uint8_t>(misbehaves(FaultKind::unknown_format, now) ? unheard_format
-                                                                                : format),
-           now);
+  SampleFormat announced = format;
+  if (misbehaves(FaultKind::unknown_format, now)) announced = unheard_format;
+  if (misbehaves(FaultKind::wrong_format, now)) announced = SampleFormat::standard;
+  announce(
+      static_cast<std::uint32_t>(layout_of(announced == unheard_format ? format : announced).bytes),
+      true, static_cast<std::uint8_t>(announced), now);
   enter(DeviceState::spinning_up, now);
-  if (!wait_for_speed || motor_.stable_at() <= now) begin_samples(now);
+  if (motor_.target() > 0.0 && (!wait_for_speed || motor_.stable_at() <= now)) begin_samples(now);
 }
 
 void EmulatedDevice::stop_scan(TimePoint now) {
@@ -277,21 +298,28 @@ void EmulatedDevice::stop_scan(TimePoint now) {
   }
 }
 
+void EmulatedDevice::set_pwm(std::span<const std::uint8_t> payload, TimePoint now) {
+  if (payload.size() != 2 || identity_.motor != MotorControl::pwm) return;
+  pwm_ = payload[0] | static_cast<unsigned>(payload[1]) << 8U;
+  drive_motor(now);
+}
+
 void EmulatedDevice::set_speed(std::span<const std::uint8_t> payload, TimePoint now) {
-  if (payload.size() != 2) return;
+  if (payload.size() != 2 || identity_.motor != MotorControl::speed) return;
   const unsigned speed = payload[0] | static_cast<unsigned>(payload[1]) << 8U;
   if (speed == 0) {
     stop_scan(now);
     return;
   }
-  speed_ = std::clamp<unsigned>(speed, slowest_motor, fastest_motor) / 60.0;
+  speed_ = std::clamp<unsigned>(speed, identity_.slowest_speed, identity_.fastest_speed) / 60.0;
   drive_motor(now);
 }
 
 void EmulatedDevice::reset(TimePoint now) {
   transmitter_.clear();
   requests_ = RequestScanner();
-  speed_ = settings_.frequency;
+  speed_ = identity_.usual_speed / 60.0;
+  pwm_ = 0;
   resets_to_go_ = std::max<std::int64_t>(resets_to_go_ - 1, 0);
   ++counts_.resets;
   reset_until_ = now + duration_of(settings_.reset_time);
@@ -305,7 +333,10 @@ void EmulatedDevice::enter(DeviceState state, TimePoint now) {
 }
 
 void EmulatedDevice::drive_motor(TimePoint now) {
-  const bool runs = state_ == DeviceState::scanning || state_ == DeviceState::spinning_up;
+  // A motor on an accessory board turns with its PWM, whether the device measures or not.
+  const bool runs = identity_.motor == MotorControl::pwm
+                        ? pwm_ > 0 && state_ != DeviceState::unplugged
+                        : state_ == DeviceState::scanning || state_ == DeviceState::spinning_up;
   const double speed = runs ? faults_.value(FaultKind::speed, now).value_or(speed_) : 0.0;
   const double ramp =
       faults_.value(FaultKind::slow_spin_up, now).value_or(settings_.spin_up_time);  // to 10 Hz
@@ -315,10 +346,15 @@ void EmulatedDevice::drive_motor(TimePoint now) {
 
 void EmulatedDevice::begin_samples(TimePoint now) {
   encoder_.emplace(identity_.modes[mode_].format);
+  second_encoder_.reset();
   frame_.clear();
+  late_frame_.clear();
   samples_ = 0;
   first_sample_ = now;
   enter(DeviceState::scanning, now);
+  if (identity_.modes[mode_].format != SampleFormat::standard) return;
+  constexpr std::uint8_t first_node[] = {0x02, 0x8F, 0x63, 0x00, 0x00};  // of a real A1
+  transmit(first_node, now);
 }
 
 // Ultra capsules wait for the sample behind them, on which they lean.
@@ -365,9 +401,10 @@ void EmulatedDevice::send_frame(TimePoint now) {
       static_cast<std::uint64_t>(
           std::chrono::duration_cast<std::chrono::microseconds>(begin - first_sample_).count()),
       bytes_);
-  frame_.erase(frame_.begin(),
-               frame_.begin() +
-                   static_cast<std::ptrdiff_t>(layout_of(identity_.modes[mode_].format).samples));
+  const auto frame_end = frame_.begin() + static_cast<std::ptrdiff_t>(
+                                              layout_of(identity_.modes[mode_].format).samples);
+  second_frame_.assign(frame_.begin(), frame_end);
+  frame_.erase(frame_.begin(), frame_end);
   ++counts_.frames;
   const std::optional<double> share = faults_.value(FaultKind::wrong_checksums, now);
   if (share && damage_.uniform() < *share) {
@@ -378,22 +415,63 @@ void EmulatedDevice::send_frame(TimePoint now) {
           static_cast<std::uint8_t>(1U << damage_.index(8));
     }
   }
+  send_with_losses(now);
+}
+
+void EmulatedDevice::send_with_losses(TimePoint now) {
+  const auto happens = [&](FaultKind kind) {
+    const std::optional<double> share = faults_.value(kind, now);
+    return share && damage_.uniform() < *share;
+  };
+  if (happens(FaultKind::lost_frames)) {
+    ++counts_.faulty_frames;
+    return;
+  }
+  if (late_frame_.empty() && happens(FaultKind::swapped_frames)) {
+    ++counts_.faulty_frames;
+    late_frame_ = bytes_;
+    return;
+  }
+  transmit(bytes_, now);
+  if (happens(FaultKind::repeated_frames)) {
+    ++counts_.faulty_frames;
+    transmit(bytes_, now);
+  }
+  if (!late_frame_.empty()) transmit(std::exchange(late_frame_, {}), now);
+  if (!misbehaves(FaultKind::second_device, now)) return;
+  // The other one stands elsewhere and turns the same way, a third of a circle ahead.
+  std::vector<Sample> samples = second_frame_;
+  for (Sample& sample : samples) {
+    sample.angle_q16 = (sample.angle_q16 + full_circle_q16 / 3) % full_circle_q16;
+    sample.distance_q2 += 2000;
+  }
+  if (samples.empty()) return;
+  if (!second_encoder_) second_encoder_.emplace(identity_.modes[mode_].format);
+  bytes_.clear();
+  second_encoder_->encode(samples, 0, bytes_);
   transmit(bytes_, now);
 }
 
 void EmulatedDevice::announce(std::uint32_t length, bool repeated, std::uint8_t type,
                               TimePoint now) {
   if (misbehaves(FaultKind::wrong_length, now)) length += 3;
-  transmit(encode(Descriptor{length, repeated, type}), now);
+  auto bytes = encode(Descriptor{length, repeated, type});
+  // The upper bits of the length of a scan descriptor.
+  if (repeated && misbehaves(FaultKind::long_answers, now)) bytes[5] |= 0x80;
+  transmit(bytes, now);
 }
 
 void EmulatedDevice::transmit(std::span<const std::uint8_t> bytes, TimePoint now) {
   if (misbehaves(FaultKind::silence, now)) return;
   const std::optional<double> drop = faults_.value(FaultKind::dropped_bytes, now);
+  const std::optional<double> flip = faults_.value(FaultKind::flipped_bits, now);
   const bool garbage = misbehaves(FaultKind::garbage, now);
-  if (!drop && !garbage) return transmitter_.push(bytes, now);
+  if (!drop && !flip && !garbage) return transmitter_.push(bytes, now);
   std::vector<std::uint8_t> damaged(bytes.begin(), bytes.end());
   if (drop) std::erase_if(damaged, [&](std::uint8_t) { return damage_.uniform() < *drop; });
+  for (std::size_t bit = 0; flip && bit < 8 * damaged.size(); ++bit) {
+    if (damage_.uniform() < *flip) damaged[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+  }
   if (garbage) garbler_.garble(damaged);
   transmitter_.push(damaged, now);
 }

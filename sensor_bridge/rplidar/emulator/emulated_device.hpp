@@ -37,10 +37,11 @@ struct DeviceCounts {
   std::uint64_t checksum_errors = 0;  ///< requests that were not
   std::uint64_t resets = 0;           ///< by request or by being plugged in
   std::uint64_t frames = 0;           ///< of measurements
+  std::uint64_t faulty_frames = 0;    ///< that a fault lost, repeated or made late
   std::uint64_t lost_bytes = 0;       ///< for which the serial line was too slow
 };
 
-/// A device that measures in a simulated world and talks as an RPLIDAR S1 does, byte by byte. It
+/// A device that measures in a simulated world and talks as an RPLIDAR does, byte by byte. It
 /// has no clock, no input and no output of its own: the same calls give the same bytes. Times never
 /// go back from one call to the next.
 class EmulatedDevice {
@@ -86,6 +87,7 @@ class EmulatedDevice {
   void start_scan(std::size_t mode, bool wait_for_speed, TimePoint now);
   void stop_scan(TimePoint now);
   void set_speed(std::span<const std::uint8_t> payload, TimePoint now);
+  void set_pwm(std::span<const std::uint8_t> payload, TimePoint now);
   void reset(TimePoint now);
   void enter(DeviceState state, TimePoint now);
   void drive_motor(TimePoint now);
@@ -95,6 +97,7 @@ class EmulatedDevice {
   void sample_until(TimePoint now);
   [[nodiscard]] double direction_of_ray(double angle, TimePoint time) const;
   void send_frame(TimePoint now);
+  void send_with_losses(TimePoint now);
   void announce(std::uint32_t length, bool repeated, std::uint8_t type, TimePoint now);
   void transmit(std::span<const std::uint8_t> bytes, TimePoint now);
   [[nodiscard]] bool misbehaves(FaultKind kind, TimePoint now) const {
@@ -119,6 +122,7 @@ class EmulatedDevice {
   TimePoint advanced_to_;
   TimePoint reset_until_;
   double speed_;                   // [rev/s] that the client wants
+  unsigned pwm_ = 0;               // of an accessory board
   std::int64_t resets_to_go_ = 0;  // until the error of its health is gone
 
   // Of the scan under way.
@@ -128,6 +132,9 @@ class EmulatedDevice {
   std::uint64_t samples_ = 0;
   std::vector<Sample> frame_;
   std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint8_t> late_frame_;  // that goes behind the next one
+  std::optional<SampleEncoder> second_encoder_;
+  std::vector<Sample> second_frame_;
 };
 
 }  // namespace quoin::sensor_bridge::rplidar

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "sensor_bridge/rplidar/emulator/garbler.hpp"
 #include "sensor_bridge/rplidar/emulator/seconds.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
 
@@ -47,11 +48,11 @@ Emulator::Emulator(const EmulatorSettings& settings, Report report,
                    const std::filesystem::path& base_directory)
     : start_(Clock::now()),
       report_(std::move(report)),
-      baud_rate_(static_cast<unsigned>(settings.baud_rate)),
       link_(make_link(settings,
                       [this](const std::string& what) { this->report(Clock::now(), what); })),
       device_(settings, load_world(settings.environment, base_directory), start_,
               [this](TimePoint time, const std::string& what) { this->report(time, what); }),
+      baud_rate_(device_.identity().baud_rate),
       wake_up_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (!wake_up_) throw std::system_error(errno, std::generic_category(), "eventfd");
   if (device_.state() != DeviceState::unplugged) link_->plug_in();
@@ -119,22 +120,23 @@ EmulatorStatus Emulator::status() const {
 void Emulator::step(TimePoint now) {
   bytes_.clear();
   link_->read(bytes_);
-  misread(bytes_, from_client_, now);
+  misread(bytes_, true, now);
   device_.receive(bytes_, now);
   bytes_.clear();
   device_.send(now, bytes_);
-  misread(bytes_, to_client_, now);
+  misread(bytes_, false, now);
   plug(now);
   if (link_->plugged_in()) link_->write(bytes_, now);
 }
 
 // What becomes of the bytes when the client's baud rate is not that of the device.
-void Emulator::misread(std::vector<std::uint8_t>& bytes, Garbler& garbler, TimePoint now) {
+void Emulator::misread(std::vector<std::uint8_t>& bytes, bool from_client, TimePoint now) {
   if (bytes.empty()) return;
   const unsigned client = link_->baud_rate().value_or(baud_rate_);
   if (client == baud_rate_) return;
-  garbler.garble(bytes);
   misread_bytes_ += bytes.size();
+  bytes = from_client ? read_at_other_rate(bytes, client, baud_rate_)
+                      : read_at_other_rate(bytes, baud_rate_, client);
   if (std::exchange(misread_baud_rate_, client) == client) return;
   report(now, "the client talks at " + std::to_string(client) + " bit/s, the device at " +
                   std::to_string(baud_rate_) + " bit/s: both get garbage");

@@ -16,7 +16,6 @@
 
 #include "sensor_bridge/rplidar/emulator/emulated_device.hpp"
 #include "sensor_bridge/rplidar/emulator/emulator_settings.hpp"
-#include "sensor_bridge/rplidar/emulator/garbler.hpp"
 #include "sensor_bridge/rplidar/emulator/link.hpp"
 #include "sensor_bridge/transport/file_descriptor.hpp"
 
@@ -66,19 +65,17 @@ class Emulator {
 
   void step(TimePoint now);
   void plug(TimePoint now);
-  void misread(std::vector<std::uint8_t>& bytes, Garbler& garbler, TimePoint now);
+  void misread(std::vector<std::uint8_t>& bytes, bool from_client, TimePoint now);
   [[nodiscard]] TimePoint next_step(TimePoint now) const;
   void wake() const;
   void report(TimePoint now, const std::string& what) const;
 
   const TimePoint start_;
   Report report_;
-  unsigned baud_rate_;
   mutable std::mutex mutex_;  // of all but the wake-up
   std::unique_ptr<Link> link_;
   EmulatedDevice device_;
-  Garbler from_client_;
-  Garbler to_client_;
+  unsigned baud_rate_;
   std::vector<std::uint8_t> bytes_;
   std::uint64_t misread_bytes_ = 0;
   unsigned misread_baud_rate_ = 0;  // that was reported last

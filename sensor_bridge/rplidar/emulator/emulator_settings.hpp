@@ -14,8 +14,10 @@ namespace quoin::sensor_bridge::rplidar {
 inline constexpr std::uint16_t slowest_motor = 480;
 inline constexpr std::uint16_t fastest_motor = 900;
 
-/// Settings of an emulated RPLIDAR S1. The defaults are a new S1 on a serial line.
+/// Settings of an emulated RPLIDAR. The defaults are a new S1 on a serial line.
 struct EmulatorSettings {
+  std::string model = "S1";  ///< A1, A2, A3, C1, S1, S2 or S3
+  std::string firmware;      ///< such as 1.15; "" for that of the model
   /// A built-in world, or the path of a world file. The device stands at the world's first way
   /// point, its front along the heading there.
   std::string environment = "domestic_room";
@@ -26,7 +28,7 @@ struct EmulatorSettings {
   std::string link;
   std::string address = "127.0.0.1";  ///< that TCP and UDP listen on
   std::int64_t port = 0;              ///< of TCP and UDP; 0 lets the kernel choose
-  std::int64_t baud_rate = 256000;    ///< [bit/s] of the device's serial line
+  std::int64_t baud_rate = 0;         ///< [bit/s] of the serial line; 0 for that of the model
 
   double frequency = 10.0;      ///< [Hz] revolutions until the client sets others
   double spin_up_time = 1.0;    ///< [s] from rest to 10 Hz
@@ -43,6 +45,9 @@ struct EmulatorSettings {
   static constexpr auto fields() {
     using P = EmulatorSettings;
     return std::tuple{
+        field<P, std::string>(&P::model, "model", "A1, A2, A3, C1, S1, S2 or S3"),
+        field<P, std::string>(&P::firmware, "firmware",
+                              "such as 1.15; empty for a usual one of the model"),
         field<P, std::string>(&P::environment, "environment",
                               "name of a built-in world, or path of a world file (in a deployment: "
                               "relative to its file)"),
@@ -54,10 +59,10 @@ struct EmulatorSettings {
         field<P, std::string>(&P::address, "address", "address that tcp and udp listen on"),
         field<P, std::int64_t>(&P::port, "port", "", 0.0, 65535.0,
                                "port of tcp and udp; 0 lets the kernel choose"),
-        field<P, std::int64_t>(&P::baud_rate, "baud_rate", "", 1200.0, 10e6,
-                               "bits a second of the device's serial line"),
-        field<P, double>(&P::frequency, "frequency", "Hz", slowest_motor / 60.0,
-                         fastest_motor / 60.0, "revolutions a second until a client sets it"),
+        field<P, std::int64_t>(&P::baud_rate, "baud_rate", "", 0.0, 10e6,
+                               "bits a second of the device's serial line; 0 for the model's"),
+        field<P, double>(&P::frequency, "frequency", "Hz", 1.0, 20.0,
+                         "revolutions a second until a client sets it, as far as the model can"),
         field<P, double>(&P::spin_up_time, "spin_up_time", "s", 0.0, 3600.0, "from rest to 10 Hz"),
         field<P, double>(&P::reset_time, "reset_time", "s", 0.0, 3600.0,
                          "deaf after a reset and after being plugged in"),
@@ -66,7 +71,7 @@ struct EmulatorSettings {
         field<P, double>(&P::range_max, "range_max", "m", 0.01, 1000.0,
                          "longest range that is measured"),
         field<P, double>(&P::range_stddev, "range_stddev", "m", 0.0, 1.0, "noise of each range"),
-        field<P, double>(&P::clock_error, "clock_error", "", -0.01, 0.01,
+        field<P, double>(&P::clock_error, "clock_error", "", -0.05, 0.05,
                          "relative error of the device's clock; positive is slow"),
         field<P, std::int64_t>(&P::seed, "seed", "", 0.0, 9007199254740992.0, "seed of the noise"),
         field<P, std::string>(&P::serial_number, "serial_number", "32 hexadecimal digits"),

@@ -17,12 +17,21 @@ enum class FaultKind {
   garbage,           ///< all that it sends is damaged
   wrong_checksums,   ///< value: share of the measurement frames that are damaged
   dropped_bytes,     ///< value: share of the bytes that get lost
+  flipped_bits,      ///< value: share of the bits that arrive inverted
+  lost_frames,       ///< value: share of the measurement frames that get lost as a whole
+  repeated_frames,   ///< value: share that is sent twice
+  swapped_frames,    ///< value: share that changes places with the frame behind
+  second_device,     ///< another device sends its frames on the same line, in between
+  wrong_format,      ///< announces standard nodes, whatever it sends
   slow_spin_up,      ///< value: [s] from rest to 10 Hz
   health_error,      ///< protection stop; value: how many resets it takes to end it
   unplug,            ///< without power and connection
   speed,             ///< value: [Hz] at which the motor turns, whatever is set
   zero_sample_time,  ///< says that its samples take no time
   wrong_length,      ///< announces answers 3 bytes longer than they are
+  long_answers,      ///< sends answers that are longer than known
+  slow_answers,      ///< value: [s] from a request to its answer
+  health_warning,    ///< value: error code of a warning
   unknown_model,     ///< reports an unknown model
   unknown_format,    ///< reports an unknown sample format
 };

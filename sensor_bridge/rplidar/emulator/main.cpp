@@ -14,7 +14,7 @@
 
 int main(int argc, char** argv) {
   using namespace quoin::sensor_bridge::rplidar;
-  CLI::App app{"An RPLIDAR S1 without hardware: talks byte by byte as the real one does"};
+  CLI::App app{"An RPLIDAR without hardware: talks byte by byte as the real one does"};
   app.footer(
       "On standard input: status, clear, quit, or a fault such as 'unplug 5s'.\n"
       "Exit codes: 0 ok, 1 failure, 2 wrong usage");

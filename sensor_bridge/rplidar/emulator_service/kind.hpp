@@ -11,7 +11,7 @@ namespace quoin::sensor_bridge::rplidar {
   static const KindInfo kind{
       .name = "rplidar_emulator",
       .description =
-          "an RPLIDAR S1 without hardware, for a service of kind rplidar or any other client",
+          "an RPLIDAR without hardware, for a service of kind rplidar or any other client",
       .program = "quoin-rplidar-emulator-service",
       .exclusive = true,
       .device = "link",

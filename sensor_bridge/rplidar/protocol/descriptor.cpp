@@ -14,24 +14,32 @@ namespace {
 constexpr std::uint8_t sync[2] = {0xA5, 0x5A};
 constexpr std::uint32_t repeated_bit = 1u << 30;
 constexpr std::uint32_t length_mask = repeated_bit - 1;
+/// Of the length of a scan's frames; some devices set bits above.
+constexpr std::uint32_t frame_length_mask = 0xFFFF;
+constexpr std::size_t most_appended = 32;
 /// Answers to get_configuration: a key, and at most as much as a request holds.
 constexpr std::uint32_t smallest_configuration = 4;
 constexpr std::uint32_t largest_configuration = 255;
 
 bool plausible(const Descriptor& descriptor) {
   if (const std::optional<SampleFormat> format = sample_format(descriptor.type)) {
-    return descriptor.repeated && descriptor.length == layout_of(*format).bytes;
+    return descriptor.repeated &&
+           (descriptor.length & frame_length_mask) == layout_of(*format).bytes;
   }
   if (descriptor.repeated) return false;
+  // Newer devices may append to what is known.
+  const auto holds = [&](std::size_t bytes) {
+    return descriptor.length >= bytes && descriptor.length <= bytes + most_appended;
+  };
   switch (static_cast<AnswerType>(descriptor.type)) {
     case AnswerType::info:
-      return descriptor.length == DeviceInfo::bytes;
+      return holds(DeviceInfo::bytes);
     case AnswerType::health:
-      return descriptor.length == DeviceHealth::bytes;
+      return holds(DeviceHealth::bytes);
     case AnswerType::sample_rate:
-      return descriptor.length == SampleTimes::bytes;
+      return holds(SampleTimes::bytes);
     case AnswerType::accessory_board:
-      return descriptor.length == 4;
+      return holds(4);
     case AnswerType::configuration:
       return descriptor.length >= smallest_configuration &&
              descriptor.length <= largest_configuration;
@@ -43,9 +51,10 @@ bool plausible(const Descriptor& descriptor) {
 
 std::optional<Descriptor> parse(const std::array<std::uint8_t, Descriptor::bytes>& bytes) {
   const auto word = load<std::uint32_t>(bytes.data() + 2);
-  if ((word & ~(repeated_bit | length_mask)) != 0) return std::nullopt;
   const Descriptor descriptor{word & length_mask, (word & repeated_bit) != 0, bytes[6]};
-  return plausible(descriptor) ? std::optional(descriptor) : std::nullopt;
+  if (!plausible(descriptor)) return std::nullopt;
+  if (!descriptor.repeated) return descriptor;
+  return Descriptor{descriptor.length & frame_length_mask, true, descriptor.type};
 }
 
 }  // namespace

@@ -23,20 +23,21 @@ unsigned major_number(const DeviceInfo& info) { return info.model >> 4; }
 }  // namespace
 
 std::optional<DeviceInfo> parse_info(std::span<const std::uint8_t> payload) {
-  if (payload.size() != DeviceInfo::bytes) return std::nullopt;
+  if (payload.size() < DeviceInfo::bytes) return std::nullopt;
   DeviceInfo info{payload[0], payload[2], payload[1], payload[3], {}};
-  std::ranges::copy(payload.subspan(4), info.serial_number.begin());
+  std::ranges::copy(payload.subspan(4, info.serial_number.size()), info.serial_number.begin());
   return info;
 }
 
 std::optional<DeviceHealth> parse_health(std::span<const std::uint8_t> payload) {
-  if (payload.size() != DeviceHealth::bytes) return std::nullopt;
-  if (payload[0] > static_cast<std::uint8_t>(Health::error)) return std::nullopt;
-  return DeviceHealth{static_cast<Health>(payload[0]), load<std::uint16_t>(payload.data() + 1)};
+  if (payload.size() < DeviceHealth::bytes) return std::nullopt;
+  const bool known = payload[0] <= static_cast<std::uint8_t>(Health::error);
+  return DeviceHealth{known ? static_cast<Health>(payload[0]) : Health::warning,
+                      load<std::uint16_t>(payload.data() + 1), payload[0]};
 }
 
 std::optional<SampleTimes> parse_sample_times(std::span<const std::uint8_t> payload) {
-  if (payload.size() != SampleTimes::bytes) return std::nullopt;
+  if (payload.size() < SampleTimes::bytes) return std::nullopt;
   return SampleTimes{load<std::uint16_t>(payload.data()), load<std::uint16_t>(payload.data() + 2)};
 }
 
@@ -48,7 +49,7 @@ std::array<std::uint8_t, DeviceInfo::bytes> encode(const DeviceInfo& info) {
 }
 
 std::array<std::uint8_t, DeviceHealth::bytes> encode(const DeviceHealth& health) {
-  std::array<std::uint8_t, DeviceHealth::bytes> bytes{static_cast<std::uint8_t>(health.status)};
+  std::array<std::uint8_t, DeviceHealth::bytes> bytes{health.reported};
   store(bytes.data() + 1, health.error_code);
   return bytes;
 }
@@ -98,6 +99,9 @@ ModelTraits traits_of(const DeviceInfo& info) {
   traits.has_configuration =
       !triangulates || info.firmware_major * 256 + info.firmware_minor >= 256 + 24;
   traits.has_motor_speed = number >= 6;
+  traits.may_have_board = number == 2 || number == 3;
+  if (traits.has_motor_speed) traits.motor = MotorControl::speed;
+  if (triangulates) traits.motor = MotorControl::line;
   if (triangulates) {
     traits.usual_baud_rate = info.hardware < 6 ? 115200 : 256000;
   } else if (number < 6 || info.model == 0x82) {
@@ -106,6 +110,11 @@ ModelTraits traits_of(const DeviceInfo& info) {
     traits.usual_baud_rate = number == 6 ? 256000 : 1000000;
   }
   return traits;
+}
+
+std::string health_text(const DeviceHealth& health) {
+  return "status " + std::to_string(health.reported) + ", error code " +
+         std::to_string(health.error_code);
 }
 
 std::string_view name_of(Health health) {

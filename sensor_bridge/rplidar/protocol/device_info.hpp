@@ -36,9 +36,14 @@ struct DeviceHealth {
 
   Health status = Health::good;
   std::uint16_t error_code = 0;
+  /// As the device says it. What is none of Health, as some S2 send it, counts as a warning.
+  std::uint8_t reported = static_cast<std::uint8_t>(status);
 
   friend bool operator==(const DeviceHealth&, const DeviceHealth&) = default;
 };
+
+/// "status 1, error code 16".
+[[nodiscard]] std::string health_text(const DeviceHealth& health);
 
 /// Answer to Command::sample_rate.
 struct SampleTimes {
@@ -50,7 +55,7 @@ struct SampleTimes {
   friend bool operator==(const SampleTimes&, const SampleTimes&) = default;
 };
 
-/// Nothing when the length is wrong, or the status is none of Health.
+/// Nothing when the payload is too short. What newer devices append is left alone.
 [[nodiscard]] std::optional<DeviceInfo> parse_info(std::span<const std::uint8_t> payload);
 [[nodiscard]] std::optional<DeviceHealth> parse_health(std::span<const std::uint8_t> payload);
 [[nodiscard]] std::optional<SampleTimes> parse_sample_times(std::span<const std::uint8_t> payload);
@@ -66,11 +71,21 @@ struct SampleTimes {
 /// "S1M1", or "unknown (0x0F)" for a model of none of the vendor's series.
 [[nodiscard]] std::string model_text(const DeviceInfo& info);
 
+/// By what the motor is driven.
+enum class MotorControl {
+  none,   ///< it turns with each scan
+  line,   ///< the "terminal ready" line of the serial port: it stands while that is set
+  pwm,    ///< an accessory board with a PWM output: it stands until that is set
+  speed,  ///< the device holds the speed that it is told
+};
+
 /// What follows from the model number.
 struct ModelTraits {
   bool known = false;
   bool has_configuration = false;  ///< answers get_configuration
   bool has_motor_speed = false;    ///< takes motor_speed in revolutions per minute
+  MotorControl motor = MotorControl::none;
+  bool may_have_board = false;  ///< is to be asked for an accessory board; by its line without one
   unsigned usual_baud_rate = 115200;
 };
 

@@ -3,6 +3,7 @@
 #include "sensor_bridge/rplidar/protocol/request.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -36,6 +37,44 @@ bool is_command(std::uint8_t command) {
       return true;
   }
   return false;
+}
+
+std::string command_name(Command command) {
+  switch (command) {
+    case Command::scan:
+      return "scan";
+    case Command::force_scan:
+      return "force_scan";
+    case Command::stop:
+      return "stop";
+    case Command::reset:
+      return "reset";
+    case Command::info:
+      return "info";
+    case Command::health:
+      return "health";
+    case Command::sample_rate:
+      return "sample_rate";
+    case Command::express_scan:
+      return "express_scan";
+    case Command::hq_scan:
+      return "hq_scan";
+    case Command::get_configuration:
+      return "get_configuration";
+    case Command::set_configuration:
+      return "set_configuration";
+    case Command::confirm_baud_rate:
+      return "confirm_baud_rate";
+    case Command::motor_speed:
+      return "motor_speed";
+    case Command::motor_pwm:
+      return "motor_pwm";
+    case Command::accessory_board:
+      return "accessory_board";
+  }
+  char unknown[32];
+  std::snprintf(unknown, sizeof unknown, "unknown command 0x%02X", static_cast<unsigned>(command));
+  return unknown;
 }
 
 }  // namespace
@@ -79,11 +118,45 @@ Request motor_speed_request(std::uint16_t speed) {
   return Request(Command::motor_speed, payload);
 }
 
+Request motor_pwm_request(std::uint16_t pwm) {
+  std::array<std::uint8_t, 2> payload{};
+  store(payload.data(), pwm);
+  return Request(Command::motor_pwm, payload);
+}
+
+Request accessory_board_request() {
+  return Request(Command::accessory_board, std::array<std::uint8_t, 4>{});
+}
+
 Request configuration_request(ConfigurationKey key, std::optional<std::uint16_t> mode) {
   std::array<std::uint8_t, 6> payload{};
   store(payload.data(), static_cast<std::uint32_t>(key));
   store(payload.data() + 4, mode.value_or(0));
   return Request(Command::get_configuration, std::span(payload).first(mode ? 6 : 4));
+}
+
+std::string request_text(const Request& request) {
+  std::string result = command_name(request.command());
+  const std::span<const std::uint8_t> payload = request.payload();
+  char detail[48] = "";
+  if (request.command() == Command::express_scan && !payload.empty()) {
+    std::snprintf(detail, sizeof detail, " in mode %u", unsigned{payload[0]});
+  } else if (request.command() == Command::motor_speed && payload.size() == 2) {
+    std::snprintf(detail, sizeof detail, " %u rev/min", payload[0] | payload[1] << 8U);
+  } else if (request.command() == Command::motor_pwm && payload.size() == 2) {
+    std::snprintf(detail, sizeof detail, " %u", payload[0] | payload[1] << 8U);
+  } else if (request.command() == Command::get_configuration ||
+             request.command() == Command::set_configuration) {
+    if (payload.size() >= sizeof(std::uint32_t)) {
+      const auto key = load<std::uint32_t>(payload.data());
+      std::snprintf(detail, sizeof detail, " 0x%02X", key);
+      if (payload.size() == 6) {
+        std::snprintf(detail, sizeof detail, " 0x%02X of mode %u", key,
+                      payload[4] | payload[5] << 8U);
+      }
+    }
+  }
+  return result + detail;
 }
 
 std::optional<Request> RequestScanner::next(std::span<const std::uint8_t>& bytes) {

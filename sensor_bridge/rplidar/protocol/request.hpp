@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "sensor_bridge/rplidar/protocol/configuration.hpp"
 
@@ -54,9 +55,16 @@ class Request {
 [[nodiscard]] Request express_scan_request(std::uint8_t mode, std::uint16_t flags = 0);
 /// `speed` in revolutions per minute; 0 lets the motor idle.
 [[nodiscard]] Request motor_speed_request(std::uint16_t speed);
+/// Of an accessory board; 0 stops the motor.
+[[nodiscard]] Request motor_pwm_request(std::uint16_t pwm);
+/// What the accessory board can do, if there is one.
+[[nodiscard]] Request accessory_board_request();
 /// `mode` for the entries that each scan mode has of its own.
 [[nodiscard]] Request configuration_request(ConfigurationKey key,
                                             std::optional<std::uint16_t> mode = std::nullopt);
+
+/// Such as "get_configuration 0x71 of mode 1".
+[[nodiscard]] std::string request_text(const Request& request);
 
 /// Finds requests in what a client sends, as a device does: bytes that cannot be one, unknown
 /// commands and requests with a wrong checksum are passed over.

@@ -24,9 +24,17 @@ struct SampleBlock {
   /// had arrived when the block was complete. Capsules are decoded when the next one is there: 79
   /// for a dense block of 40.
   std::size_t age = 0;
-  /// Samples are missing before this block: it is the first one, bytes were dropped or damaged, or
-  /// the device has started anew.
+  /// Samples are missing before this block: it is the first one, bytes were dropped or damaged, a
+  /// frame has not arrived, or the device has started anew.
   bool after_gap = false;
+  /// How many are missing, as the angles show it: less whole turns, of which they show nothing.
+  std::size_t lost = 0;
+  bool lost_known = false;    ///< the angles do show it
+  std::size_t lost_unit = 1;  ///< samples that get lost together: those of a frame
+  /// From the angles of frames that agree with each other; 0 while there are none.
+  double samples_per_turn = 0.0;
+  /// Index of the sample that the device marks as the first one of a turn. Standard nodes only.
+  std::size_t turn_begin = capacity;
 };
 
 }  // namespace quoin::sensor_bridge::rplidar

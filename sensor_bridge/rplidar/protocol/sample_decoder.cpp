@@ -17,14 +17,11 @@ constexpr std::uint8_t hq_sync = 0xA5;
 constexpr std::size_t node_bytes = layout_of(SampleFormat::standard).bytes;
 /// Nodes have no checksum: behind damage so many must follow each other.
 constexpr std::size_t confirming_bytes = 3 * node_bytes;
-
-/// No device turns faster than 100 times a second, and half a circle between two capsules says
-/// nothing.
-std::uint32_t largest_difference_q6(SampleFormat format, double sample_period) {
-  const double revolutions = 100.0 * sample_period * static_cast<double>(layout_of(format).samples);
-  if (!(revolutions > 0.0 && revolutions < 0.5)) return full_circle_q6 / 2;
-  return static_cast<std::uint32_t>(revolutions * full_circle_q6);
-}
+/// As many when they lead elsewhere than the nodes before.
+constexpr std::size_t telling_bytes = 8 * node_bytes;
+/// Where more than this share of the frames is damaged, a checksum of eight bits lets damaged ones
+/// pass: the first frame behind damage is not trusted.
+constexpr double heavy_damage = 0.3;
 
 /// Whether a frame can begin here, judged by the bytes, of which there is one at least.
 template <SampleFormat format>
@@ -86,19 +83,7 @@ bool fit_nodes(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-void append_node(const std::uint8_t* node, SampleBlock& block) {
-  const std::uint32_t angle_q6 = load<std::uint16_t>(node + 1) >> 1;
-  block.angle_q16[block.size] = angle_q6 == full_circle_q6 ? 0 : angle_q6 << 10;
-  block.distance_q2[block.size] = load<std::uint16_t>(node + 3);
-  block.quality[block.size] = node[0] & 0xFC;
-  ++block.size;
-}
-
 }  // namespace
-
-SampleDecoder::SampleDecoder(SampleFormat format, double sample_period)
-    : format_(format),
-      largest_difference_q6_(rplidar::largest_difference_q6(format, sample_period)) {}
 
 bool SampleDecoder::next(std::span<const std::uint8_t>& bytes, SampleBlock& block) {
   switch (format_) {
@@ -181,96 +166,84 @@ void SampleDecoder::drop_false_begin() {
 
 template <SampleFormat format>
 bool SampleDecoder::accept(const std::uint8_t* frame, SampleBlock& block) {
-  constexpr FrameLayout layout = layout_of(format);
   ++counts_.frames;
   in_step_ = true;
+  CapsuleFate fate = CapsuleFate::taken;
+  bool complete = false;
   if constexpr (format == SampleFormat::hq) {
-    decode_hq(frame, block);
-    hand_out(block, layout.samples - 1);
-    return true;
+    complete = hq_capsules_.add(frame, block, fate);
   } else {
-    constexpr std::size_t offset = start_angle_offset(format);
-    const auto start_q6 = [](const std::uint8_t* capsule) {
-      const std::uint32_t angle = load<std::uint16_t>(capsule + offset) & 0x7FFFu;
-      return angle < full_circle_q6 ? angle : angle - full_circle_q6;
-    };
-    if ((load<std::uint16_t>(frame + offset) & stream_start_bit) != 0) {
+    const auto start = load<std::uint16_t>(frame + start_angle_offset(format));
+    if ((start & stream_start_bit) != 0) {
       if (counts_.frames > 1) ++counts_.restarts;
-      has_previous_ = false;
-      after_gap_ = true;
+      capsules_.restart();
     }
-    bool complete = false;
-    if (has_previous_) {
-      const std::uint32_t begin = start_q6(previous_.data());
-      const std::uint32_t end = start_q6(frame);
-      const std::uint32_t difference = end - begin + (begin > end ? full_circle_q6 : 0);
-      if (difference > largest_difference_q6_) {
-        ++counts_.implausible;
-        after_gap_ = true;
-      } else {
-        const CapsuleAngles angles{static_cast<std::int32_t>(begin << 10),
-                                   static_cast<std::int32_t>((difference << 10) / layout.samples)};
-        if constexpr (format == SampleFormat::express) {
-          decode_express(previous_.data(), angles, block);
-        } else if constexpr (format == SampleFormat::ultra) {
-          decode_ultra(previous_.data(), frame, angles, block);
-        } else if constexpr (format == SampleFormat::dense) {
-          decode_dense(previous_.data(), angles, block);
-        } else {
-          if (after_gap_) last_distance_q2_ = 0;
-          decode_ultra_dense(previous_.data(), angles, last_distance_q2_, block);
-        }
-        hand_out(block, 2 * layout.samples - 1);
-        complete = true;
-      }
-    }
-    std::memcpy(previous_.data(), frame, layout.bytes);
-    has_previous_ = true;
-    return complete;
+    constexpr double weight = 1.0 / 16.0;
+    damage_ += weight * ((behind_damage_ ? 1.0 : 0.0) - damage_);
+    complete = capsules_.add(frame, behind_damage_ && damage_ > heavy_damage, block, fate);
+    behind_damage_ = false;
   }
+  if (fate == CapsuleFate::repeated) ++counts_.repeated;
+  if (fate == CapsuleFate::out_of_line) ++counts_.out_of_line;
+  if (complete) counts_.samples += block.size;
+  return complete;
 }
 
 bool SampleDecoder::next_nodes(std::span<const std::uint8_t>& bytes, SampleBlock& block) {
   block.size = 0;
+  const auto hand_out = [&] {
+    block.age = block.size - 1 + nodes_.waiting();
+    counts_.samples += block.size;
+    return true;
+  };
   for (;;) {
+    // Nodes that have confirmed each other behind damage.
+    while (confirmed_bytes_ > 0) {
+      if (block.size >= SampleBlock::capacity || !nodes_.add(held_.data(), block)) {
+        return hand_out();
+      }
+      count_node();
+      release(node_bytes);
+      confirmed_bytes_ -= node_bytes;
+    }
     if (held_size_ == 0 && in_step_) {
-      while (bytes.size() >= node_bytes && block.size < SampleBlock::capacity &&
-             fit_nodes(bytes.first(node_bytes))) {
-        append_node(bytes.data(), block);
+      while (bytes.size() >= node_bytes && fit_nodes(bytes.first(node_bytes))) {
+        if (block.size >= SampleBlock::capacity || !nodes_.add(bytes.data(), block)) break;
+        count_node();
         bytes = bytes.subspan(node_bytes);
       }
-      if (block.size > 0) {
-        counts_.frames += block.size;
-        hand_out(block, block.size - 1);
-        return true;
-      }
+      if (block.size > 0) return hand_out();
     }
-    if (bytes.empty()) return false;
+    if (bytes.empty()) return block.size > 0 && hand_out();
     hold(bytes, 1);
     while (held_size_ > 0 && !fit_nodes(std::span(held_).first(held_size_))) {
       skip(1);
       release(1);
     }
-    if (held_size_ == (in_step_ ? node_bytes : confirming_bytes)) {
+    if (in_step_ ? held_size_ == node_bytes
+                 : held_size_ % node_bytes == 0 && held_size_ >= confirming_bytes &&
+                       nodes_.can_go_on(std::span(held_).first(held_size_))) {
       in_step_ = true;
-      for (std::size_t i = 0; i < held_size_; i += node_bytes) append_node(held_.data() + i, block);
-      held_size_ = 0;
+      confirmed_bytes_ = held_size_;
+    } else if (held_size_ >= telling_bytes) {
+      skip(1);
+      release(1);
     }
   }
 }
 
-void SampleDecoder::hand_out(SampleBlock& block, std::size_t age) {
-  block.age = age;
-  block.after_gap = after_gap_;
-  after_gap_ = false;
-  counts_.samples += block.size;
+void SampleDecoder::count_node() {
+  ++counts_.frames;
+  counts_.out_of_line = nodes_.out_of_line();
 }
 
 void SampleDecoder::skip(std::size_t count) {
   counts_.skipped_bytes += count;
   in_step_ = false;
-  has_previous_ = false;
-  after_gap_ = true;
+  behind_damage_ = true;
+  capsules_.interrupt();
+  hq_capsules_.interrupt();
+  nodes_.interrupt();
 }
 
 void SampleDecoder::hold(std::span<const std::uint8_t>& bytes, std::size_t count) {

@@ -166,8 +166,7 @@ void SampleEncoder::encode_hq(std::span<const Sample> samples, std::uint64_t tim
 }
 
 bool SampleEncoder::starts_revolution(std::uint32_t angle_q16) {
-  const bool starts = first_ || angle_q16 < last_angle_q16_;
-  first_ = false;
+  const bool starts = angle_q16 < last_angle_q16_;
   last_angle_q16_ = angle_q16;
   return starts;
 }

@@ -26,6 +26,18 @@ std::string number(double value, int digits) {
   return text;
 }
 
+TimeOuts::Time in_milliseconds(double seconds) {
+  return std::chrono::round<TimeOuts::Time>(std::chrono::duration<double>(seconds));
+}
+
+TimeOuts time_outs_of(const RplidarParameters& parameters) {
+  TimeOuts time_outs;
+  time_outs.answer = in_milliseconds(parameters.answer_timeout);
+  time_outs.probing = time_outs.answer / 2;  // is asked twice
+  time_outs.spin_up = in_milliseconds(parameters.spin_up_timeout);
+  return time_outs;
+}
+
 class Bridge final : public DriverListener {
  public:
   Bridge(const RplidarParameters& parameters, const Endpoint& endpoint, runtime::Source& source)
@@ -35,7 +47,8 @@ class Bridge final : public DriverListener {
                  .baud_rate = static_cast<unsigned>(parameters.serial_baudrate),
                  .scan_mode = parameters.scan_mode,
                  .scan_frequency = parameters.scan_frequency,
-                 .time_outs = {}},
+                 .idle_stop = in_milliseconds(parameters.idle_stop),
+                 .time_outs = time_outs_of(parameters)},
                 *this) {
     // REP-138 names the keys.
     const bool serial = endpoint.kind == Endpoint::Kind::serial;
@@ -48,6 +61,8 @@ class Bridge final : public DriverListener {
     driver_.run([this](Clock::time_point time) { return source_.wait_until(time); });
   }
 
+  [[nodiscard]] bool is_wanted() override { return source_.readers() > 0; }
+
   void state_changed(DriverState state) override {
     report_value("Driver State", std::string(name_of(state)));
   }
@@ -59,7 +74,9 @@ class Bridge final : public DriverListener {
     report_value("Firmware Version", firmware_text(facts.info));
     report_value("Hardware Version", std::to_string(facts.info.hardware));
     report_value("Device ID", serial_number_text(facts.info));
-    report_value("Health", std::string(name_of(facts.health.status)));
+    report_value("Health",
+                 std::string(name_of(facts.health.status)) +
+                     (facts.health.status == Health::good ? "" : ", " + health_text(facts.health)));
     tell_mode(plan.mode);
     source_.clear_warning("connected to " + product + " " + serial_number_text(facts.info) +
                           " at " + facts.endpoint + ", scan mode " + plan.mode.name);
@@ -100,6 +117,13 @@ class Bridge final : public DriverListener {
     report_value("Sample Period", number(mode.sample_period * 1e6, 3) + " us");
   }
 
+  void tell_period() {
+    const double measured = driver_.counts().sample_period;
+    if (measured > 0.0) {
+      report_value("Measured Sample Period", number(measured * 1e6, 3) + " us");
+    }
+  }
+
   /// As often as the heartbeat can show it.
   void tell_counts(const Revolution& revolution) {
     const Clock::time_point now = Clock::now();
@@ -109,6 +133,8 @@ class Bridge final : public DriverListener {
     report_value("Scan Frequency", number(1.0 / period, 2) + " Hz");
     report_value("Samples", std::to_string(driver_.counts().samples));
     report_value("Lost Samples", std::to_string(driver_.counts().lost_samples));
+    tell_period();
+    report_value("Frames Out Of Line", std::to_string(driver_.counts().out_of_line));
     report_value("Checksum Errors", std::to_string(driver_.counts().checksum_errors));
     tell_recoveries();
   }

@@ -18,11 +18,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double radians_per_q16 = 2.0 * pi / full_circle_q16;
 
-/// (-pi, pi], of the angle that the device reports.
-float bearing_of(double angle_q16, bool inverted) {
+/// (-pi, pi], of the angle that the device reports, which counts clockwise.
+float bearing_of(double angle_q16, const Mounting& mounting) {
   const double turned = angle_q16 * radians_per_q16;  // [0, 2 pi)
-  if (inverted) return static_cast<float>(turned > pi ? turned - 2.0 * pi : turned);
-  return static_cast<float>(turned >= pi ? 2.0 * pi - turned : -turned);
+  return mounted(mounting, static_cast<float>(turned >= pi ? 2.0 * pi - turned : -turned));
 }
 
 float range_of(std::uint32_t distance_q2) {
@@ -40,11 +39,11 @@ void resize(msg::Scan& scan, std::size_t count) {
   scan.time_offsets().resize(count);
 }
 
-void copy_samples(const Revolution& revolution, bool inverted, msg::Scan& scan) {
+void copy_samples(const Revolution& revolution, const Mounting& mounting, msg::Scan& scan) {
   const std::size_t count = revolution.angle_q16.size();
   resize(scan, count);
   for (std::size_t i = 0; i < count; ++i) {
-    scan.bearings()[i] = bearing_of(revolution.angle_q16[i], inverted);
+    scan.bearings()[i] = bearing_of(revolution.angle_q16[i], mounting);
     scan.ranges()[i] = range_of(revolution.distance_q2[i]);
     scan.qualities()[i] = quality_of(revolution.quality[i]);
   }
@@ -52,13 +51,13 @@ void copy_samples(const Revolution& revolution, bool inverted, msg::Scan& scan) 
 }
 
 /// The nearest of the samples of a bin stands for all: what is in the way matters most.
-void sort_into_bins(const Revolution& revolution, std::size_t bins, bool inverted,
+void sort_into_bins(const Revolution& revolution, std::size_t bins, const Mounting& mounting,
                     msg::Scan& scan) {
   resize(scan, bins);
   const double width = static_cast<double>(full_circle_q16) / static_cast<double>(bins);
   const float duration = revolution.time_offset.empty() ? 0.0F : revolution.time_offset.back();
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    scan.bearings()[bin] = bearing_of(width * static_cast<double>(bin), inverted);
+    scan.bearings()[bin] = bearing_of(width * static_cast<double>(bin), mounting);
     scan.ranges()[bin] = std::numeric_limits<float>::quiet_NaN();
     scan.qualities()[bin] = 0.0F;
     scan.time_offsets()[bin] = duration * static_cast<float>(bin) / static_cast<float>(bins);
@@ -84,10 +83,9 @@ msg::Scan declared_scan(const RplidarParameters& parameters, const ScanMode& mod
 
 void fill_rays(const Revolution& revolution, const RplidarParameters& parameters, msg::Scan& scan) {
   if (parameters.bins == 0) {
-    copy_samples(revolution, parameters.inverted, scan);
+    copy_samples(revolution, parameters, scan);
   } else {
-    sort_into_bins(revolution, static_cast<std::size_t>(parameters.bins), parameters.inverted,
-                   scan);
+    sort_into_bins(revolution, static_cast<std::size_t>(parameters.bins), parameters, scan);
   }
   scan.duration(scan.time_offsets().empty() ? 0.0F : scan.time_offsets().back());
 }

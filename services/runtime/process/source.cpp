@@ -42,6 +42,8 @@ class PublishingSource final : public ServiceActivity<Source> {
 
   bool publish(msg::Scan& scan) override { return publish_on(0, &scan, scan.header()); }
 
+  [[nodiscard]] std::size_t readers() const override { return outputs_.front().output->matched(); }
+
   [[nodiscard]] Participant& participant() override { return service_.process.participant; }
 
  protected:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <idl/Scan.h>
@@ -30,6 +31,9 @@ class Source : public Activity {
   /// Publishes a scan whose header.stamp and header.frame are set; the rest of the header is filled
   /// in. With the lossless preset it waits for the readers; false when asked to stop meanwhile.
   virtual bool publish(msg::Scan& scan) = 0;
+
+  /// Readers of the first output that are matched now, observers among them.
+  [[nodiscard]] virtual std::size_t readers() const = 0;
 
   /// Publishes a message of another type of the kind's outputs, at its own rate, with its stamp and
   /// frame. A source without scans publishes all like this.

@@ -52,6 +52,21 @@ TEST(ScanConversion, ADeviceUpsideDownTurnsTheOtherWay) {
               ElementsAre(FloatEq(0.0F), FloatEq(pi / 2), FloatEq(pi), FloatEq(-pi / 2)));
 }
 
+TEST(ScanConversion, TheDevicesZeroIsWhereTheOffsetPutsIt) {
+  RplidarParameters parameters;
+  parameters.angle_offset = std::numbers::pi;
+  msg::Scan scan;
+  fill_rays(four_samples(), parameters, scan);
+  EXPECT_THAT(scan.bearings(), ElementsAre(FloatNear(pi, 1e-6F), FloatNear(pi / 2, 1e-6F),
+                                           FloatNear(0.0F, 1e-6F), FloatNear(-pi / 2, 1e-6F)));
+  parameters.inverted = true;
+  parameters.angle_offset = 1.0;
+  fill_rays(four_samples(), parameters, scan);
+  EXPECT_THAT(scan.bearings(),
+              ElementsAre(FloatNear(1.0F, 1e-6F), FloatNear(1.0F + pi / 2, 1e-6F),
+                          FloatNear(1.0F - pi, 1e-6F), FloatNear(1.0F - pi / 2, 1e-6F)));
+}
+
 TEST(ScanConversion, BearingsStayWithinHalfATurnEitherWay) {
   Revolution revolution;
   revolution.angle_q16 = {1, q16(180) - 1, q16(180), q16(180) + 1, full_circle_q16 - 1};

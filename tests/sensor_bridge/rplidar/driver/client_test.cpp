@@ -111,11 +111,28 @@ TEST_F(ClientTest, TellsThatAnAnswerIsOfAWrongLength) {
   EXPECT_EQ(thrown_diagnosis([&] { (void)client_->info(30ms); }).finding, Finding::wrong_length);
 }
 
-TEST_F(ClientTest, RefusesValuesThatCannotBe) {
-  answer_with(answer(AnswerType::health, Bytes{7, 0, 0}));
-  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->health(); }).finding, Finding::wrong_value);
-  answer_with(answer(AnswerType::sample_rate, Bytes{0, 0, 0, 0}));
-  EXPECT_EQ(thrown_diagnosis([&] { (void)client_->sample_times(); }).finding, Finding::wrong_value);
+TEST_F(ClientTest, TakesAnUnknownHealthForAWarning) {
+  answer_with(answer(AnswerType::health, Bytes{4, 7, 0}));
+  EXPECT_EQ(client_->health(), (DeviceHealth{Health::warning, 7, 4}));
+}
+
+TEST_F(ClientTest, NamesTheQuestionThatGotNoAnswer) {
+  EXPECT_THAT(thrown_diagnosis([&] { (void)client_->health(); }).text,
+              HasSubstr("no answer to health, not a byte arrives"));
+  answer_with(health_answer(Health::good));
+  (void)client_->health();
+  answer_with({});
+  const Diagnosis diagnosis = thrown_diagnosis([&] { (void)client_->sample_times(); });
+  EXPECT_EQ(diagnosis.finding, Finding::no_answer);
+  EXPECT_THAT(diagnosis.text, HasSubstr("no answer to sample_rate in time, though"));
+}
+
+TEST_F(ClientTest, AsksForTheBoardThatDrivesTheMotor) {
+  answer_with(answer(AnswerType::accessory_board, Bytes{1, 0, 0, 0}));
+  EXPECT_TRUE(client_->has_motor_pwm());
+  EXPECT_THAT(script_.requests.back().bytes(), ElementsAre(0xA5, 0xFF, 0x04, 0, 0, 0, 0, 0x5E));
+  client_->set_motor_pwm(660);
+  EXPECT_THAT(script_.requests.back().bytes(), ElementsAre(0xA5, 0xF0, 0x02, 0x94, 0x02, 0xC1));
 }
 
 TEST_F(ClientTest, StopsAndReadsOnUntilTheDeviceIsQuiet) {

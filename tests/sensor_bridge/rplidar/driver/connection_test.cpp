@@ -92,9 +92,11 @@ TEST_F(FindDevice, StopsTheMotorOfADeviceThatWasScanningButDoesNotAnswer) {
   script.answer = [](const Request& request) {
     return request.command() == Command::stop ? Bytes(84, 0x55) : Bytes();
   };
-  EXPECT_EQ(failure().finding, Finding::no_bytes);
-  EXPECT_EQ(script.commands.back(), Command::motor_speed);
-  EXPECT_EQ(script.motor_held, true);
+  EXPECT_EQ(failure().finding, Finding::no_answer);
+  // Nothing is known of it: it is told by each request that there is.
+  EXPECT_EQ(script.commands.at(script.commands.size() - 2), Command::motor_speed);
+  EXPECT_EQ(script.commands.back(), Command::motor_pwm);
+  EXPECT_EQ(script.motor_held, std::nullopt);
 }
 
 TEST_F(FindDevice, TellsTheMostThatItHasLearned) {

@@ -99,9 +99,7 @@ TEST_F(FactsTest, SilenceAboutTheMotorIsNoFault) {
 
 TEST_F(FactsTest, ValuesThatCannotBeAreRefused) {
   values_[{Key::mode_sample_time, 1}] = {0, 0, 0, 0};
-  EXPECT_EQ(plan_scan(ask(), "slow", 0.0).mode.id, 0);  // of no interest then
-  EXPECT_EQ(thrown_diagnosis([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
-            Finding::wrong_value);
+  EXPECT_EQ(plan_scan(ask(), "fast", 0.0).mode.sample_period, 0.0);  // is measured
   values_[{Key::mode_sample_time, 1}] = {0, 108, 0, 0};
   values_[{Key::mode_range, 1}] = {0, 0, 0, 0};
   EXPECT_EQ(thrown_diagnosis([&] { (void)plan_scan(ask(), "fast", 0.0); }).finding,
@@ -129,8 +127,26 @@ TEST_F(FactsTest, DevicesWithoutAConfigurationTellTheirSampleTimes) {
   EXPECT_EQ(plan_scan(facts, "", 0.0).mode.format, SampleFormat::express);
   EXPECT_EQ(plan_scan(facts, "standard", 0.0).mode.format, SampleFormat::standard);
   EXPECT_FALSE(plan_scan(facts, "", 0.0).speed);
-  EXPECT_THAT(to_text(thrown_diagnosis([&] { (void)plan_scan(facts, "", 10.0); })),
-              HasSubstr("the speed of A1M8 cannot be set"));
+  const ScanPlan plan = plan_scan(facts, "", 10.0);
+  ASSERT_TRUE(plan.warning);
+  EXPECT_THAT(plan.warning->text, HasSubstr("the speed of A1M8 cannot be set"));
+}
+
+TEST_F(FactsTest, OldFirmwareDoesNotKnowItsSampleTimes) {
+  DeviceInfo info = a1_info();
+  info.firmware_minor = 15;
+  script_.answer = [](const Request&) { return Bytes(); };
+  const DeviceFacts facts = ask(info);
+  ASSERT_THAT(facts.modes, SizeIs(1));
+  EXPECT_DOUBLE_EQ(facts.modes[0].sample_period, 476e-6);
+  EXPECT_EQ(facts.motor, MotorControl::line);
+  info.firmware_minor = 17;
+  EXPECT_EQ(thrown_diagnosis([&] { (void)ask(info); }).finding, Finding::no_bytes);
+}
+
+TEST_F(FactsTest, ReadsTheHeadOfALongFormat) {
+  values_[{Key::mode_format, 1}] = {0x85, 0, 0};
+  EXPECT_EQ(ask().modes.at(1).format, SampleFormat::dense);
 }
 
 }  // namespace

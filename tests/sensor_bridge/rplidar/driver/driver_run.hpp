@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -88,6 +89,9 @@ class DriverRun : private DriverListener {
     record_.problems.clear();
   }
 
+  /// Whether anybody wants the revolutions.
+  void set_wanted(bool wanted) { wanted_ = wanted; }
+
   /// Returns when the driver has ended.
   void stop() {
     switch_.stop();
@@ -121,6 +125,7 @@ class DriverRun : private DriverListener {
     changed_.notify_all();
   }
 
+  bool is_wanted() override { return wanted_; }
   void state_changed(DriverState state) override {
     tell([&] { record_.states.push_back(state); });
   }
@@ -140,6 +145,7 @@ class DriverRun : private DriverListener {
     tell([&] { record_.problems.push_back(diagnosis); });
   }
 
+  std::atomic<bool> wanted_ = true;
   std::mutex mutex_;
   std::condition_variable changed_;
   DriverRecord record_;

@@ -120,7 +120,7 @@ TEST(DriverOfAnA1, StopsTheMotorWhenItsListenerThrows) {
   Driver driver(a1_settings(), listener, device.opener());
   EXPECT_THROW(driver.run(uninterrupted()), std::runtime_error);
   EXPECT_EQ(device.script().motor_held, true);
-  EXPECT_EQ(device.script().commands.back(), Command::motor_speed);
+  EXPECT_EQ(device.script().commands.back(), Command::stop);
 }
 
 }  // namespace

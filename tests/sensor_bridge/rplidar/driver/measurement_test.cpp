@@ -47,7 +47,7 @@ TEST(Measure, TellsTheRatesAndLetsTheMotorStop) {
 TEST(Measure, EndsInTimeAndTellsWhy) {
   EmulatorRun emulator(quick_emulator("tcp"));
   emulator.apply("silence");
-  const Measurement silent = measure(settings_for(emulator), 4, 900ms, sleep_until);
+  const Measurement silent = measure(settings_for(emulator), 4, 2500ms, sleep_until);
   EXPECT_EQ(silent.revolutions, 0U);
   EXPECT_EQ(silent.frequency, 0.0);
   EXPECT_THAT(silent.problems, ElementsAre(Field(&Diagnosis::finding, Finding::no_bytes)));

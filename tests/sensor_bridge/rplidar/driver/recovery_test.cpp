@@ -225,9 +225,9 @@ TEST_F(Recovery, IsNotTriedByResetForever) {
 }
 
 TEST_F(Recovery, TheOtherBaudRateIsFound) {
-  device_.baud_rate = 115200;
+  device_.baud_rate = 460800;
   start();
-  EXPECT_EQ(driver_->record().facts->baud_rate, 115200u);
+  EXPECT_EQ(driver_->record().facts->baud_rate, 460800u);
   driver_->stop();
   EXPECT_EQ(emulator_->speed_at_rest(), 0.0);
 }
@@ -239,20 +239,69 @@ TEST_F(Recovery, AWrongBaudRateIsToldOf) {
   driver_.emplace(settings_);
   ASSERT_TRUE(
       driver_->wait_for([](const DriverRecord& record) { return !record.problems.empty(); }));
-  EXPECT_THAT(driver_->record().problems[0].text, HasSubstr("(at 256000 baud)"));
+  EXPECT_EQ(driver_->record().problems[0].finding, Finding::other_baud_rate);
+  EXPECT_THAT(driver_->record().problems[0].text,
+              HasSubstr("answers at 115200 baud, not at the 256000 that are set"));
   driver_->stop();
   EXPECT_EQ(driver_->record().counts.connections, 0u);
 }
 
-TEST_F(Recovery, AnswersThatCannotBeAreToldOf) {
-  device_.faults = "zero_sample_time+0.7s";
+TEST_F(Recovery, ASamplePeriodThatIsNotDeclaredIsMeasured) {
+  device_.faults = "zero_sample_time";
+  settings_.scan_frequency = 15.0;
+  start();
+  driver_->stop();
+  EXPECT_NEAR(driver_->record().mode->sample_period, 108e-6, 3e-6);
+  EXPECT_NEAR(static_cast<double>(driver_->record().last_revolution.angle_q16.size()), 617, 3);
+}
+
+TEST_F(Recovery, ASpeedThatNoDeviceHasIsNotPublished) {
+  device_.faults = "speed=25";
   plug();
   driver_.emplace(settings_);
-  ASSERT_TRUE(driver_->wait_for_problem(Finding::wrong_value));
-  EXPECT_THAT(driver_->record().problems[0].text, HasSubstr("time for each sample"));
-  ASSERT_TRUE(driver_->wait_for_revolutions(1));
+  ASSERT_TRUE(driver_->wait_for_problem(Finding::impossible_rotation));
+  EXPECT_THAT(driver_->record().problems.back().text, HasSubstr("Hz, which no RPLIDAR does"));
+  EXPECT_EQ(driver_->record().counts.revolutions, 0u);
+  emulator_->clear_faults();
+  ASSERT_TRUE(driver_->wait_for_revolutions(2));
+}
+
+TEST_F(Recovery, MeasurementsOfTwoDevicesAreNotPublished) {
+  device_.faults = "second_device";
+  device_.baud_rate = 1000000;
+  plug();
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for([](const DriverRecord& record) {
+    return record.has_problem(Finding::mixed_frames) ||
+           record.has_problem(Finding::impossible_rotation);
+  }));
+  EXPECT_EQ(driver_->record().counts.revolutions, 0u);
+}
+
+TEST_F(Recovery, TheFormatThatArrivesIsReadWhateverWasAnnounced) {
+  device_.faults = "wrong_format";
+  plug();
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for_problem(Finding::other_format));
+  ASSERT_TRUE(driver_->wait_for_revolutions(3));
   driver_->stop();
-  EXPECT_EQ(emulator_->speed_at_rest(), 0.0);
+  EXPECT_EQ(driver_->record().mode->format, SampleFormat::dense);
+  EXPECT_NEAR(static_cast<double>(driver_->record().last_revolution.angle_q16.size()), 926, 2);
+}
+
+TEST_F(Recovery, LongerAnswersThanKnownAreRead) {
+  device_.faults = "long_answers";
+  start();
+  EXPECT_EQ(model_text(driver_->record().facts->info), "S1M1");
+}
+
+TEST_F(Recovery, AHealthWarningIsToldOfOnce) {
+  device_.faults = "health_warning=16";
+  plug();
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for_revolutions(2));
+  ASSERT_EQ(driver_->record().problems.size(), 1u);
+  EXPECT_THAT(driver_->record().problems[0].text, HasSubstr("status 1, error code 16"));
 }
 
 TEST_F(Recovery, AnswersOfAWrongLengthAreToldOf) {
@@ -261,6 +310,69 @@ TEST_F(Recovery, AnswersOfAWrongLengthAreToldOf) {
   driver_.emplace(settings_);
   ASSERT_TRUE(driver_->wait_for_problem(Finding::wrong_length));
   ASSERT_TRUE(driver_->wait_for_revolutions(1));
+}
+
+TEST_F(Recovery, ALineThatIsTooSlowIsToldOf) {
+  device_.baud_rate = 115200;
+  plug();
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for_problem(Finding::line_too_slow));
+  ASSERT_TRUE(driver_->wait_for(
+      [](const DriverRecord& record) { return record.counts.lost_samples > 2000; }));
+  driver_->stop();
+  EXPECT_FALSE(driver_->record().has_problem(Finding::wrong_rotation));
+}
+
+TEST_F(Recovery, TheMotorRestsWhileNobodyWantsTheRevolutions) {
+  device_.model = "A2";
+  settings_.idle_stop = std::chrono::milliseconds(50);
+  start();
+  driver_->set_wanted(false);
+  ASSERT_TRUE(driver_->wait_for(
+      [](const DriverRecord& record) { return record.states.back() == DriverState::standby; }));
+  EXPECT_EQ(emulator_->speed_at_rest(), 0.0);
+  driver_->set_wanted(true);
+  ASSERT_TRUE(driver_->wait_for_revolutions(3));
+  driver_->stop();
+  EXPECT_EQ(driver_->record().counts.connections, 1u);
+  EXPECT_THAT(driver_->record().problems, IsEmpty());
+}
+
+TEST_F(Recovery, ADeviceThatIsUnpluggedWhileItRestsIsFoundAgain) {
+  settings_.idle_stop = std::chrono::milliseconds(50);
+  start();
+  driver_->set_wanted(false);
+  ASSERT_TRUE(driver_->wait_for(
+      [](const DriverRecord& record) { return record.states.back() == DriverState::standby; }));
+  emulator_->apply("unplug 0.1s");
+  ASSERT_TRUE(driver_->wait_for_problem(Finding::unplugged));
+  driver_->set_wanted(true);
+  ASSERT_TRUE(driver_->wait_for_revolutions(2));
+}
+
+class EachModel : public Recovery, public ::testing::WithParamInterface<const char*> {};
+
+// An A2 or A3 sends nothing before its motor is told to turn.
+TEST_P(EachModel, TurnsMeasuresAndRests) {
+  device_.model = GetParam();
+  start();
+  EXPECT_THAT(model_text(driver_->record().facts->info), HasSubstr(GetParam()));
+  driver_->stop();
+  EXPECT_EQ(driver_->record().counts.lost_samples, 0u);
+  EXPECT_EQ(emulator_->speed_at_rest(), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Model, EachModel,
+                         ::testing::Values("A1", "A2", "A3", "C1", "S1", "S2", "S3"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_F(Recovery, AWishThatAC1CannotFulfilIsAWarning) {
+  device_.model = "C1";
+  settings_.scan_frequency = 12.0;
+  plug();
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for_revolutions(1));
+  EXPECT_THAT(driver_->record().problems.at(0).text, HasSubstr("the speed of C1M1 cannot be set"));
 }
 
 /// What the driver ended with by itself.

@@ -19,17 +19,36 @@ using ::testing::SizeIs;
 TEST(StopMotor, EndsTheScanThenIdlesTheMotor) {
   Script script;
   ScriptedTransport transport(script);
-  stop_motor(transport);
+  stop_motor(transport, MotorControl::speed);
   EXPECT_THAT(script.commands, ElementsAre(Command::stop, Command::motor_speed));
   EXPECT_THAT(script.requests[1].payload(), ElementsAre(0, 0));
-  EXPECT_EQ(script.motor_held, true);
+  EXPECT_EQ(script.motor_held, std::nullopt);
+}
+
+TEST(StopMotor, UsesWhatDrivesTheMotor) {
+  const auto stopped = [](std::optional<MotorControl> control) {
+    Script script;
+    ScriptedTransport transport(script);
+    stop_motor(transport, control);
+    return script;
+  };
+  const Script line = stopped(MotorControl::line);
+  EXPECT_THAT(line.commands, ElementsAre(Command::stop));
+  EXPECT_EQ(line.motor_held, true);
+  const Script board = stopped(MotorControl::pwm);
+  EXPECT_THAT(board.commands, ElementsAre(Command::stop, Command::motor_pwm));
+  EXPECT_THAT(board.requests[1].payload(), ElementsAre(0, 0));
+  EXPECT_EQ(board.motor_held, std::nullopt);
+  EXPECT_THAT(stopped(MotorControl::none).commands, ElementsAre(Command::stop));
+  EXPECT_THAT(stopped(std::nullopt).commands,
+              ElementsAre(Command::stop, Command::motor_speed, Command::motor_pwm));
 }
 
 TEST(StopMotor, SaysItAgainToADeviceThatHasMissedIt) {
   Script script;
   script.stream = [&script] { return script.commands.size() < 6 ? Bytes(84, 0x55) : Bytes(); };
   ScriptedTransport transport(script);
-  stop_motor(transport);
+  stop_motor(transport, MotorControl::speed);
   EXPECT_THAT(script.commands, SizeIs(6));
 }
 
@@ -37,7 +56,7 @@ TEST(StopMotor, GivesUpOnADeviceThatIsDeaf) {
   Script script;
   script.stream = [] { return Bytes(84, 0x55); };
   ScriptedTransport transport(script);
-  stop_motor(transport);
+  stop_motor(transport, MotorControl::speed);
   EXPECT_THAT(script.commands, SizeIs(Le(62)));
 }
 
@@ -45,7 +64,7 @@ TEST(StopMotor, IsSilentWhereNobodyIsThere) {
   Script script;
   script.failure = TransportError(TransportError::Kind::closed, "gone");
   ScriptedTransport transport(script);
-  stop_motor(transport);
+  stop_motor(transport, MotorControl::speed);
   EXPECT_THAT(script.commands, IsEmpty());
 }
 
@@ -58,7 +77,8 @@ TEST(MotorGuard, StopsTheMotorOnceAndOnlyWhenArmed) {
     guard.arm(true);
     const MotorGuard other(std::move(guard));
   }
-  EXPECT_THAT(script.commands, ElementsAre(Command::stop, Command::motor_speed));
+  EXPECT_THAT(script.commands,
+              ElementsAre(Command::stop, Command::motor_speed, Command::motor_pwm));
 }
 
 }  // namespace

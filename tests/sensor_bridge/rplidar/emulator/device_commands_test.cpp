@@ -136,8 +136,8 @@ TEST(DeviceCommands, RefuseSettingsThatCannotBe) {
   };
   EXPECT_THROW(made_with([](auto& settings) { settings.serial_number = "12"; }),
                std::invalid_argument);
-  EXPECT_THROW(made_with([](auto& settings) { settings.frequency = 7.9; }), std::invalid_argument);
-  EXPECT_THROW(made_with([](auto& settings) { settings.baud_rate = 0; }), std::invalid_argument);
+  EXPECT_THROW(made_with([](auto& settings) { settings.frequency = 0.9; }), std::invalid_argument);
+  EXPECT_THROW(made_with([](auto& settings) { settings.baud_rate = -1; }), std::invalid_argument);
   EXPECT_THROW(made_with([](auto& settings) { settings.reset_time = -1.0; }),
                std::invalid_argument);
   EXPECT_THROW(made_with([](auto& settings) { settings.clock_error = 0.1; }),

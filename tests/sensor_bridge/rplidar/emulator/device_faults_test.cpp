@@ -15,7 +15,7 @@ constexpr std::string_view good_health = "A5 5A 03 00 00 00 06 00 00 00";
 constexpr std::string_view bad_health = "A5 5A 03 00 00 00 06 02 01 00";
 
 DecoderCounts counts_of(SampleFormat format, const Bytes& bytes) {
-  SampleDecoder decoder(format, 108e-6);
+  SampleDecoder decoder(format);
   SampleBlock block;
   std::span<const std::uint8_t> rest(bytes);
   while (decoder.next(rest, block)) {

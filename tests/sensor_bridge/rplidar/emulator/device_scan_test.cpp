@@ -29,7 +29,7 @@ TEST(DeviceScan, BeginsAtOnceWhenForced) {
   DeviceOnBench bench;
   EXPECT_EQ(bench.ask("A5 21", 0.0004).size(), 7U);
   EXPECT_EQ(bench.device().state(), DeviceState::scanning);
-  EXPECT_NEAR(static_cast<double>(bench.wait(0.5).size()), 0.5 / 244e-6 * 5.0, 10.0);
+  EXPECT_NEAR(static_cast<double>(bench.wait(0.5).size()), 0.5 / 244e-6 * 5.0, 15.0);
 }
 
 TEST(DeviceScan, KeepsThePaceOfTheSerialLine) {

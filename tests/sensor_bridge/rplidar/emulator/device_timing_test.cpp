@@ -34,7 +34,7 @@ Outcome scan(double duration, double lateness, double clock_error) {
   EXPECT_EQ(bench.ask(dense_scan_request, 0.001).size(), 7U);
 
   const ScanMode mode = bench.device().identity().modes[1];
-  SampleDecoder decoder(mode.format, mode.sample_period);
+  SampleDecoder decoder(mode.format);
   RevolutionAssembler assembler(mode.sample_period, line_delay);
   SampleBlock block;
   Revolution revolution;
@@ -82,7 +82,7 @@ void expect_flawless(const Outcome& outcome, double duration) {
   EXPECT_EQ(outcome.gaps, 0U);
   EXPECT_EQ(outcome.counts.checksum_errors, 0U);
   EXPECT_EQ(outcome.counts.skipped_bytes, 0U);
-  EXPECT_EQ(outcome.counts.implausible, 0U);
+  EXPECT_EQ(outcome.counts.out_of_line, 0U);
 }
 
 TEST(DeviceTiming, IsKnownToASampleForTenMinutes) {

@@ -88,7 +88,7 @@ void expect_a_good_stream(PlainClient& client) {
   Bytes bytes = client.ask(dense_scan_request, 7 + 84 * 50);
   ASSERT_GE(bytes.size(), 7U + 84U * 50U);
   EXPECT_EQ(Bytes(bytes.begin(), bytes.begin() + 7), hex("A5 5A 54 00 00 40 85"));
-  SampleDecoder decoder(SampleFormat::dense, 108e-6);
+  SampleDecoder decoder(SampleFormat::dense);
   SampleBlock block;
   std::span<const std::uint8_t> stream(bytes);
   stream = stream.subspan(7);
@@ -168,7 +168,7 @@ TEST(Emulator, GivesAndUnderstandsGarbageAtAnotherBaudRate) {
   client.set_baud_rate(115200);
   (void)client.receive(8400);  // what was on the way
   const Bytes garbage = client.receive(84 * 50);
-  SampleDecoder decoder(SampleFormat::dense, 108e-6);
+  SampleDecoder decoder(SampleFormat::dense);
   SampleBlock block;
   std::span<const std::uint8_t> stream(garbage);
   while (decoder.next(stream, block)) {

@@ -55,10 +55,10 @@ TEST(DescriptorScanner, LeavesThePayload) {
 
 TEST(DescriptorScanner, PassesOverWhatLooksLikeOne) {
   const char* const false_ones[] = {
-      "A5 5A 15 00 00 00 04",  // device info of 21 bytes
+      "A5 5A 13 00 00 00 04",  // device info of 21 bytes
       "A5 5A 14 00 00 40 04",  // repeated device info
       "A5 5A 54 00 00 00 85",  // one single dense capsule
-      "A5 5A 54 00 00 80 85",  // a mode that there is not
+      "A5 5A 54 00 00 80 85",  // another mode alone
       "A5 5A 55 00 00 40 85",  // a dense capsule of 85 bytes
       "A5 5A 03 00 00 00 20",  // configuration without its key
       "A5 5A 00 10 00 00 20",  // configuration of 4 kB
@@ -89,6 +89,19 @@ TEST(SampleFormat, IsTheTypeOfTheDescriptor) {
   EXPECT_EQ(sample_format(0x04), std::nullopt);
   EXPECT_EQ(format_name(SampleFormat::dense), "dense (0x85)");
   EXPECT_EQ(format_name(SampleFormat::ultra_dense), "ultra dense (0x86)");
+}
+
+TEST(DescriptorScanner, TakesLongerAnswersAndBitsAboveTheLengthOfFrames) {
+  const auto found = [](const char* text) {
+    const Bytes bytes = hex(text);
+    std::span<const std::uint8_t> rest = bytes;
+    DescriptorScanner scanner;
+    return scanner.next(rest);
+  };
+  EXPECT_EQ(found("A5 5A 18 00 00 00 04"), (Descriptor{24, false, 0x04}));
+  EXPECT_EQ(found("A5 5A 04 00 00 00 06"), (Descriptor{4, false, 0x06}));
+  EXPECT_EQ(found("A5 5A 54 00 00 C0 85"), (Descriptor{84, true, 0x85}));
+  EXPECT_EQ(found("A5 5A 54 00 01 40 85"), (Descriptor{84, true, 0x85}));
 }
 
 }  // namespace

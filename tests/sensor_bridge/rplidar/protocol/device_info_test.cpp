@@ -30,14 +30,14 @@ TEST(DeviceInfo, ReadsARealS1) {
   EXPECT_EQ(to_bytes(encode(*info)), hex(real_s1));
 }
 
-TEST(DeviceInfo, RefusesOtherLengths) {
+TEST(DeviceInfo, RefusesShortAnswersAndReadsTheHeadOfLongOnes) {
   EXPECT_EQ(parse_info({}), std::nullopt);
   EXPECT_EQ(parse_info(Bytes(19)), std::nullopt);
-  EXPECT_EQ(parse_info(Bytes(21)), std::nullopt);
+  EXPECT_EQ(parse_info(hex(real_s1) + Bytes(4, 0xFF)), parse_info(hex(real_s1)));
   EXPECT_EQ(parse_health(Bytes(2)), std::nullopt);
-  EXPECT_EQ(parse_health(Bytes(4)), std::nullopt);
+  EXPECT_EQ(parse_health(hex("02 34 12 99")), (DeviceHealth{Health::error, 0x1234}));
   EXPECT_EQ(parse_sample_times(Bytes(3)), std::nullopt);
-  EXPECT_EQ(parse_sample_times(Bytes(5)), std::nullopt);
+  EXPECT_EQ(parse_sample_times(Bytes(5)), SampleTimes{});
 }
 
 TEST(DeviceInfo, NamesTheSeries) {
@@ -80,7 +80,8 @@ TEST(DeviceInfo, TellsWhatTheModelCanDo) {
 TEST(DeviceHealth, ReadsStatusAndCode) {
   EXPECT_EQ(parse_health(hex("00 00 00")), (DeviceHealth{Health::good, 0}));
   EXPECT_EQ(parse_health(hex("02 34 12")), (DeviceHealth{Health::error, 0x1234}));
-  EXPECT_EQ(parse_health(hex("03 00 00")), std::nullopt);
+  EXPECT_EQ(parse_health(hex("04 00 00")), (DeviceHealth{Health::warning, 0, 4}));
+  EXPECT_EQ(health_text({Health::warning, 16, 4}), "status 4, error code 16");
   EXPECT_EQ(to_bytes(encode(DeviceHealth{Health::warning, 0x8001})), hex("01 01 80"));
 }
 

@@ -21,7 +21,8 @@ TEST(GoldenFrames, StandardNodes) {
   const Bytes second = hex("3E FF B3 00 00");
   // Quality 0. 360 degrees = 23040/64: 23040 * 2 + 1 = 0xB401, the same as zero. The farthest.
   const Bytes third = hex("02 01 B4 FF FF");
-  EXPECT_EQ(decode(SampleFormat::standard, first + second + third),
+  // Waits for one more, which confirms it.
+  EXPECT_EQ(decode(SampleFormat::standard, first + second + third + first),
             (DecodedSamples{{degrees(0.5), 4000, 188, true},
                             {degrees(359.984375), 0, 60, false},
                             {0, 65535, 0, false}}));

@@ -145,6 +145,7 @@ TEST(RevolutionAssembler, PutsRightWhatCameLateAtFirst) {
 SampleBlock block_of(std::initializer_list<double> angles, bool after_gap = false) {
   SampleBlock block;
   block.after_gap = after_gap;
+  block.samples_per_turn = 36.0;
   for (const double angle : angles) {
     block.angle_q16[block.size] = static_cast<std::uint32_t>(angle * 65536.0);
     block.distance_q2[block.size] = 4000;
@@ -156,10 +157,12 @@ SampleBlock block_of(std::initializer_list<double> angles, bool after_gap = fals
 }
 
 TEST(RevolutionAssembler, CutsOnceWhereCorrectionsStepBackOverZero) {
-  RevolutionAssembler assembler(period, 0.0);
+  constexpr double pace = 12.5e-3;  // eight samples in 0.1 s
+  RevolutionAssembler assembler(pace, 0.0);
   TimePoint arrival;
-  const auto add = [&](const SampleBlock& block, Revolution& revolution) {
-    arrival += seconds(period * static_cast<double>(block.size));
+  const auto add = [&](SampleBlock block, Revolution& revolution) {
+    block.samples_per_turn = 8.0;
+    arrival += seconds(pace * static_cast<double>(block.size));
     return assembler.add(block, arrival, revolution);
   };
   Revolution revolution;
@@ -173,15 +176,16 @@ TEST(RevolutionAssembler, CutsOnceWhereCorrectionsStepBackOverZero) {
 }
 
 TEST(RevolutionAssembler, IsNotMisledByOneWrongAngle) {
+  constexpr double pace = 0.1 / 36;
   for (const double wrong : {10.0, 100.0, 200.0, 350.0}) {
-    RevolutionAssembler assembler(period, 0.0);
+    RevolutionAssembler assembler(pace, 0.0);
     TimePoint arrival;
     Revolution revolution;
     int complete = 0;
     for (int turn = 0; turn < 6; ++turn) {
       for (int step = 0; step < 36; ++step) {
         const double angle = turn == 2 && step == 9 ? wrong : 10.0 * step + 1.0;
-        arrival += seconds(period);
+        arrival += seconds(pace);
         if (assembler.add(block_of({angle}), arrival, revolution)) ++complete;
       }
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "sensor_bridge/rplidar/protocol/revolution.hpp"
 #include "sensor_bridge/rplidar/protocol/sample_block.hpp"
@@ -27,12 +28,16 @@ struct RevolvingSensor {
   double begin_angle = 0.0;  ///< [deg]
   std::size_t sent = 0;
   bool gap = true;
+  std::size_t lost = 0;
 
   [[nodiscard]] SampleBlock next() {
     SampleBlock block;
     block.size = block_samples;
     block.age = 2 * block_samples - 1;
     block.after_gap = gap;
+    block.lost = std::exchange(lost, 0);
+    block.lost_known = true;
+    block.samples_per_turn = samples_per_revolution;
     gap = false;
     for (std::size_t k = 0; k < block.size; ++k, ++sent) {
       const double angle = std::fmod(
@@ -46,6 +51,7 @@ struct RevolvingSensor {
 
   void lose_block() {
     sent += block_samples;
+    lost += block_samples;
     gap = true;
   }
 

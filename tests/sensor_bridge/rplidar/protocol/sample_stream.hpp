@@ -58,7 +58,7 @@ inline DecodedSamples decode(SampleDecoder& decoder, std::span<const std::uint8_
 }
 
 inline DecodedSamples decode(SampleFormat format, std::span<const std::uint8_t> bytes) {
-  SampleDecoder decoder(format, sample_period);
+  SampleDecoder decoder(format);
   return decode(decoder, bytes);
 }
 
