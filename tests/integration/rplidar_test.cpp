@@ -125,7 +125,7 @@ TEST_F(LidarCommand, ProbeTellsWhoItIsAndHowFastItMeasures) {
 TEST_F(LidarCommand, DoctorFindsNothingWrongWithAGoodDevice) {
   const nlohmann::json report = run("doctor", 0);
   EXPECT_EQ(report["healthy"], true);
-  EXPECT_EQ(report["devices"][0]["checks"].size(), 5U);
+  EXPECT_EQ(report["devices"][0]["checks"].size(), 6U);
 }
 
 TEST_F(LidarCommand, DoctorSaysWhatIsWrongAndWhatToDo) {
