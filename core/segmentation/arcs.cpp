@@ -26,6 +26,7 @@ constexpr double significantly_better = 10.828;
 constexpr double largest_bow = 3.0;
 // Of a mean from a circle through three of them, in those of a point.
 constexpr double largest_deviation = 3.0;
+constexpr std::size_t fits_of_all_points = 24;
 
 class ArcFinder {
  public:
@@ -35,7 +36,8 @@ class ArcFinder {
         sensor_(sensor),
         tolerance_(tolerance),
         flatness_(flatness),
-        floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)) {}
+        floor_(flatness * flatness / (deviations_in_tolerance * deviations_in_tolerance)),
+        points_left_(fits_of_all_points * points.size()) {}
 
   /// Whether a run that is not straight is bent like a circle.
   [[nodiscard]] bool is_arc(const Segment& run) const {
@@ -127,7 +129,8 @@ class ArcFinder {
 
   [[nodiscard]] bool circle_explains(const Segment& segment, double limit) const {
     const PointsView own = view(segment);
-    if (own.size() <= 3) return false;
+    if (own.size() <= 3 || own.size() > points_left_) return false;
+    points_left_ -= own.size();
     const auto circle = fit_circle(own, sensor_);
     if (!circle || covered_angle(*circle, own) < smallest_angle) return false;
     const double freedom = static_cast<double>(own.size()) - 3.0;
@@ -139,6 +142,8 @@ class ArcFinder {
   [[nodiscard]] double chi_square_of(const Piece& piece) const {
     if (!piece.round) return chi_square_of_line(piece.segment);
     const PointsView own = view(piece.segment);
+    if (own.size() > points_left_) return 0.0;
+    points_left_ -= own.size();
     const auto circle = fit_circle(own, sensor_);
     return circle ? quoin::chi_square(*circle, own, sensor_, floor_) : 0.0;
   }
@@ -165,6 +170,9 @@ class ArcFinder {
   const Tolerance& tolerance_;
   double flatness_;
   double floor_;  // [m^2]
+  // To be fitted to circles: a round room is joined piece by piece, and each time fitted again.
+  // More than that is left as it is, so that the work on a scan stays bounded.
+  mutable std::size_t points_left_;
 };
 
 void make_round(Piece& piece) {

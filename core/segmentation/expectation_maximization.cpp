@@ -14,6 +14,9 @@ constexpr double farthest_along = 16.0;    // squared, in variances along the li
 constexpr double least_background = 0.01;  // probability
 // Squared Mahalanobis distance of two lines that are the same with a probability of 0.25 %.
 constexpr double largest_difference = 12.0;
+// Points times lines: clusters that have more are given fewer steps, so that no scan takes for
+// ever.
+constexpr double most_densities = 2.5e6;
 
 }  // namespace
 
@@ -180,7 +183,10 @@ void ExpectationMaximization::operator()(const PointsView& scan, const SensorMod
         std::max(static_cast<std::size_t>(parameters_.window),
                  cluster.size() / static_cast<std::size_t>(parameters_.lines) + 1);
     mixture_.start(points, cluster, moments_, builder_.tolerance(), window);
-    for (int k = 0; k < parameters_.iterations; ++k) {
+    const double densities = static_cast<double>(cluster.size() * mixture_.lines());
+    const double part = std::min(1.0, most_densities / std::max(densities, 1.0));
+    const int iterations = static_cast<int>(std::ceil(part * parameters_.iterations));
+    for (int k = 0; k < iterations; ++k) {
       mixture_.step(points, builder_.tolerance(), static_cast<double>(fewest_) / 2.0);
     }
     mixture_.label(points, builder_.tolerance(), labels_);

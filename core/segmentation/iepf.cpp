@@ -2,7 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segmentation/iepf.hpp"
 
+#include <bit>
+
 namespace quoin {
+
+namespace {
+
+// Splits may be as uneven as they like while they are not deep, as those of rooms are; then a chord
+// is split in its middle, so that n points take n log n steps whatever is scanned.
+std::size_t deepest_uneven_split(std::size_t points) {
+  return 8 * static_cast<std::size_t>(std::bit_width(points));
+}
+
+}  // namespace
 
 Iepf::Iepf(const Parameters& parameters) : builder_(parameters) {}
 
@@ -10,21 +22,25 @@ void Iepf::split(const PointsView& points, const Segment& cluster) {
   // From left to right, so that pieces come out in order. Chords share the vertex, pieces do not:
   // it stays with the left.
   std::size_t next_begin = cluster.begin;
-  Segment chord = cluster;
+  const std::size_t deepest = deepest_uneven_split(cluster.size());
+  Chord chord{cluster};
   waiting_.clear();
   while (true) {
-    if (chord.size() >= 3) {
+    Segment& segment = chord.segment;
+    if (segment.size() >= 3) {
       const FarthestPoint farthest =
-          farthest_from_chord(points, builder_.coarse_points(), chord, builder_.tolerance());
-      if (farthest.index > 0 && farthest.index + 1 < chord.size() && farthest.beyond()) {
-        const std::size_t vertex = chord.begin + farthest.index;
-        waiting_.push_back({vertex, chord.end});
-        chord.end = vertex + 1;
+          farthest_from_chord(points, builder_.coarse_points(), segment, builder_.tolerance());
+      if (farthest.index > 0 && farthest.index + 1 < segment.size() && farthest.beyond()) {
+        const std::size_t vertex =
+            segment.begin + (chord.depth < deepest ? farthest.index : segment.size() / 2);
+        ++chord.depth;
+        waiting_.push_back({{vertex, segment.end}, chord.depth});
+        segment.end = vertex + 1;
         continue;
       }
     }
-    builder_.add({next_begin, chord.end});
-    next_begin = chord.end;
+    builder_.add({next_begin, segment.end});
+    next_begin = segment.end;
     if (waiting_.empty()) return;
     chord = waiting_.back();
     waiting_.pop_back();

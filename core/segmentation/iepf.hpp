@@ -34,8 +34,13 @@ class Iepf {
  private:
   void split(const PointsView& points, const Segment& cluster);
 
+  struct Chord {
+    Segment segment;
+    std::size_t depth = 0;  // of splits
+  };
+
   SegmentBuilder builder_;
-  std::vector<Segment> waiting_;  // chords right of the one being judged, the leftmost last
+  std::vector<Chord> waiting_;  // right of the one being judged, the leftmost last
 };
 
 }  // namespace quoin

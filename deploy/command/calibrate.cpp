@@ -152,7 +152,7 @@ bool listen(const CalibrateOptions& options, Signals& signals, Progress& progres
     while (reader.take(scan)) {
       if (scans.added() == 0) start = Clock::now();
       accounting.receive(scan.header());
-      if (accounting.last_was_duplicate()) continue;
+      if (accounting.verdict() != runtime::ScanAccounting::Verdict::received) continue;
       scans.add({scan.bearings(), scan.ranges(), scan.range_min(), scan.range_max()});
     }
     const double elapsed = seconds_since(start);
@@ -215,6 +215,7 @@ int report(const CalibrateOptions& options, const Calibration& calibration) {
 int run(const CalibrateOptions& options) {
   check_output(options.output);
   Signals signals;  // before DDS starts its threads
+  signals.end_when_stuck();
   Progress progress;
   CollectedScans scans;
   try {

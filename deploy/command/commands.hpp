@@ -50,4 +50,8 @@ struct Command {
 [[nodiscard]] Command add_version(CLI::App& app);
 [[nodiscard]] Command add_view(CLI::App& app);
 
+/// The exit code of a command that ended with `code`: a failure where its output could not be
+/// written, to a full disk or a pipe that was closed.
+[[nodiscard]] int whole_output(int code);
+
 }  // namespace quoin::deploy

@@ -247,6 +247,7 @@ int run(const CompareOptions& options) {
   const Deployment deployment = load_deployment(options.file);
   const Selection selection = select(deployment, options);
   Signals signals;  // before DDS starts its threads
+  signals.end_when_stuck();
   return Listener(options, deployment, selection).run(signals);
 }
 

@@ -36,6 +36,7 @@ int run(const std::string& file) {
     return exit_ok;
   }
   Signals signals;  // before DDS starts its threads
+  signals.end_when_stuck();
   std::deque<runtime::Participant> participants;
   for (const std::size_t index : servers) {
     const std::string name = "discovery_" + std::to_string(index);

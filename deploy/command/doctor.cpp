@@ -59,30 +59,39 @@ Checks check_disks(const DoctorOptions& options) {
   return checks;
 }
 
-/// Processes that live at the end of the listening, and what they reported.
-std::vector<HeardProcess> listen(const Deployment& deployment, bool all_namespaces, double wait) {
+struct Heard {
+  std::vector<HeardProcess> processes;  ///< that live at the end of the listening
+  std::vector<std::string> foreign_writers;
+};
+
+Heard listen(const Deployment& deployment, bool all_namespaces, double wait) {
   HeartbeatListener listener(deployment, "quoin_doctor", all_namespaces);
   listener.listen(wait, [] { return false; });
   const auto now = std::chrono::steady_clock::now();
-  std::vector<HeardProcess> processes;
+  Heard result;
+  std::vector<const msg::ServiceStatus*> living;
   for (const auto& [key, heard] : listener.heard()) {
     const msg::ServiceStatus& status = heard.newest;
-    const bool ended = status.state() == msg::STATE_FINISHED ||
-                       status.state() == msg::STATE_STOPPED || status.state() == msg::STATE_FAILED;
+    const bool ended =
+        status.state() == msg::STATE_FINISHED || status.state() == msg::STATE_STOPPED;
     // One heartbeat is missed at least.
     if (ended || now - heard.last > std::chrono::milliseconds(1500)) continue;
-    processes.push_back({key.first + "/" + status.service(), status.host(), status.pid(),
-                         status.incarnation(), status.state() == msg::STATE_ACTIVE, heard.fresh,
-                         heard.delay, status.incompatible_qos(), line_scatter_of(status)});
+    living.push_back(&status);
+    result.processes.push_back({key.first + "/" + status.service(), status.host(), status.pid(),
+                                status.incarnation(), status.state() == msg::STATE_ACTIVE,
+                                heard.fresh, heard.delay, status.incompatible_qos(),
+                                input_complaints(status), line_scatter_of(status)});
   }
-  return processes;
+  result.foreign_writers = foreign_writers(living);
+  return result;
 }
 
 Checks check_services(const Deployment& deployment, bool all_namespaces, double wait) {
   try {
-    const auto processes = listen(deployment, all_namespaces, wait);
+    const auto [processes, strangers] = listen(deployment, all_namespaces, wait);
     Checks checks = check_clocks(processes, runtime::host_name());
     append(checks, check_doubles(processes));
+    append(checks, check_strangers(processes, strangers));
     append(checks, check_qos(processes));
     append(checks, check_line_scatter(processes));
     if (processes.empty()) checks.push_back({"deployments", Verdict::good, "no service runs", ""});

@@ -65,7 +65,7 @@ class Missed {
     for (const runtime::Loss& loss : accounting_.receive(header)) {
       if (loss.site.place == runtime::LossPlace::link) count += loss.count;
     }
-    if (accounting_.last_was_duplicate()) return false;
+    if (accounting_.verdict() != runtime::ScanAccounting::Verdict::received) return false;
     if (first && from_the_start_ && !header.trace().empty()) count = header.trace().back().index();
     if (count > 0) {
       std::cerr << "missed " << count << " messages before #" << topics::sequence_number(header)
@@ -81,6 +81,7 @@ class Missed {
 
 int echo(const Deployment& deployment, const EchoTopic& topic, const EchoOptions& options) {
   Signals signals;
+  signals.end_when_stuck();
   auto config = runtime::participant_config(deployment, "quoin_echo", observer_identity);
   config.observes = {topic.name};  // who begins to write waits for us
   runtime::Participant participant(config);
@@ -98,7 +99,7 @@ int echo(const Deployment& deployment, const EchoTopic& topic, const EchoOptions
   std::uint64_t count = 0;
   while (signals.take() == 0) {
     wait_set.wait(milliseconds(100));
-    while (reader.take(message)) {
+    while (!signals.pending() && reader.take(message)) {
       try {
         const std::string line = printed(topic.type, message, options.json);
         // Two instances of a service may both have handled a scan when one takes over.

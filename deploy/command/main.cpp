@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
+#include "core/text/printable.hpp"
 #include "deploy/command/commands.hpp"
 #include "services/deployment/deployment.hpp"
+#include "services/runtime/process/log.hpp"
 
-int main(int argc, char** argv) {
-  using namespace quoin;
-  using namespace quoin::deploy;
+namespace {
+
+using namespace quoin;
+using namespace quoin::deploy;
+
+int run(int argc, char** argv) {
   CLI::App app{"Quoin: lines and corners with trustworthy covariances from 2D LiDAR scans"};
   app.name("quoin");
   app.require_subcommand(1);
@@ -31,13 +37,23 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_ok : exit_configuration;
   } catch (const DeploymentError& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << printable(error.what(), Lines::many) << '\n';
     return exit_configuration;
   } catch (const std::out_of_range& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << printable(error.what(), Lines::many) << '\n';
     return exit_configuration;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "quoin: out of memory\n";
+    return exit_failure;
   } catch (const std::exception& error) {
-    std::cerr << "quoin: " << error.what() << '\n';
+    std::cerr << "quoin: " << printable(error.what(), Lines::many) << '\n';
   }
   return exit_failure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  runtime::report_uncaught_exceptions();
+  return whole_output(run(argc, argv));
 }

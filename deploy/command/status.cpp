@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/command/network_options.hpp"
 #include "deploy/observation/heartbeats.hpp"
@@ -79,24 +80,38 @@ std::vector<Row> collect(const Deployment& deployment, bool one_namespace, doubl
   return rows;
 }
 
+std::vector<std::string> foreign_writers_of(const std::vector<Row>& rows) {
+  std::vector<const msg::ServiceStatus*> statuses;
+  for (const Row& row : rows) {
+    if (row.status) statuses.push_back(&*row.status);
+  }
+  return foreign_writers(statuses);
+}
+
 void print(const std::vector<Row>& rows) {
   std::vector<ServiceFigures> services;
   for (const Row& row : rows) services.push_back(row.figures);
   for (const std::string& text : status_lines(services)) std::cout << text << '\n';
+  for (const std::string& text : foreign_writers_of(rows)) std::cout << text << '\n';
   for (const Row& row : rows) {
     if (!row.status) continue;
     const std::string& name = row.figures.name;
-    if (!row.status->detail().empty()) std::cout << name << ": " << row.status->detail() << '\n';
+    if (!row.status->detail().empty())
+      std::cout << name << ": " << printable(row.status->detail()) << '\n';
     for (const msg::InputStatus& input : row.status->inputs()) {
       if (input.unjoined() == 0) continue;
       std::cout << name << ": " << input.unjoined() << " results without a message of port "
                 << input.port() << '\n';
     }
+    for (const std::string& complaint : input_complaints(*row.status)) {
+      std::cout << name << ": " << complaint << '\n';
+    }
     for (const std::string& mismatch : row.status->incompatible_qos()) {
-      std::cout << name << ": incompatible QoS: " << mismatch << '\n';
+      std::cout << name << ": incompatible QoS: " << printable(mismatch) << '\n';
     }
     for (const msg::Diagnostic& diagnostic : row.status->diagnostics()) {
-      std::cout << name << ": " << diagnostic.name() << ": " << diagnostic.value() << '\n';
+      std::cout << name << ": " << diagnostic.name() << ": " << printable(diagnostic.value())
+                << '\n';
     }
     const auto scatter = line_scatter_of(*row.status);
     const std::string complaint_of_it = scatter ? complaint(*scatter) : "";
@@ -112,6 +127,8 @@ nlohmann::ordered_json inputs_of(const msg::ServiceStatus& status,
   std::uint64_t writers = 0;
   for (const msg::InputStatus& input : status.inputs()) {
     writers += input.writers();
+    auto refused = nlohmann::ordered_json::object();
+    for (const msg::LossCount& count : input.refused()) refused[count.cause()] = count.count();
     inputs.push_back({{"port", input.port()},
                       {"topic", input.topic()},
                       {"writers", input.writers()},
@@ -119,7 +136,8 @@ nlohmann::ordered_json inputs_of(const msg::ServiceStatus& status,
                       {"lost", input.lost()},
                       {"upstream_lost", input.upstream_lost()},
                       {"duplicates", input.duplicates()},
-                      {"unjoined", input.unjoined()}});
+                      {"unjoined", input.unjoined()},
+                      {"refused", std::move(refused)}});
   }
   matched = writers;
   return inputs;
@@ -180,7 +198,8 @@ void print_json(const std::vector<Row>& rows) {
     }
     services[row.figures.name] = object;
   }
-  const nlohmann::ordered_json object{{"services", services}};
+  const nlohmann::ordered_json object{{"services", services},
+                                      {"foreign_writers", foreign_writers_of(rows)}};
   std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }
 

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
+
 namespace quoin::deploy {
 
 std::string verdict_name(Verdict verdict) {
@@ -23,8 +25,8 @@ std::string verdict_name(Verdict verdict) {
 void print(const Check& check, std::ostream& out) {
   const std::string verdict = verdict_name(check.verdict);
   out << "  " << verdict << std::string(10 - verdict.size(), ' ') << check.name << ": "
-      << check.text << '\n';
-  if (!check.advice.empty()) out << "            -> " << check.advice << '\n';
+      << printable(check.text) << '\n';
+  if (!check.advice.empty()) out << "            -> " << printable(check.advice) << '\n';
 }
 
 nlohmann::ordered_json to_json(const Checks& checks) {

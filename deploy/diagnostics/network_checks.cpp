@@ -71,6 +71,23 @@ Checks check_doubles(const std::vector<HeardProcess>& processes) {
   return checks;
 }
 
+Checks check_strangers(const std::vector<HeardProcess>& processes,
+                       const std::vector<std::string>& foreign_writers) {
+  constexpr const char* advice =
+      "find who else runs in this domain (quoin status without a file shows all namespaces), or "
+      "turn security on: docs/operations/security.md";
+  Checks checks;
+  for (const std::string& text : foreign_writers) {
+    checks.push_back({"strangers", Verdict::bad, text, advice});
+  }
+  for (const HeardProcess& process : processes) {
+    for (const std::string& text : process.input_complaints) {
+      checks.push_back({"strangers", Verdict::doubtful, process.service + ": " + text, advice});
+    }
+  }
+  return checks;
+}
+
 Checks check_qos(const std::vector<HeardProcess>& processes) {
   // Both sides report a mismatch, in the same words.
   std::set<std::string> texts;

@@ -27,6 +27,7 @@ struct HeardProcess {
   /// host's: the smallest.
   std::int64_t delay = 0;
   std::vector<std::string> incompatible_qos;
+  std::vector<std::string> input_complaints = {};          ///< repeated and refused messages
   std::optional<LineScatter> line_scatter = std::nullopt;  ///< of one that fits lines
 };
 
@@ -38,6 +39,11 @@ struct HeardProcess {
 /// Whether two processes are at work under one label, which is what two deployments of one domain
 /// and namespace do.
 [[nodiscard]] Checks check_doubles(const std::vector<HeardProcess>& processes);
+
+/// Whether somebody sends what no service of the deployments does. `foreign_writers`: topics that
+/// others write, too.
+[[nodiscard]] Checks check_strangers(const std::vector<HeardProcess>& processes,
+                                     const std::vector<std::string>& foreign_writers);
 
 /// What readers and writers of the services do not agree on.
 [[nodiscard]] Checks check_qos(const std::vector<HeardProcess>& processes);

@@ -26,6 +26,14 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
   const auto fail = [&](const char* what) {
     throw std::runtime_error(file.string() + ": " + what + ": " + std::strerror(errno));
   };
+  const auto kind = std::filesystem::status(file).type();
+  if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::fifo) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) fail("cannot be written");
+    return;
+  }
   std::string temporary = file.string() + ".XXXXXX";
   const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
   if (descriptor < 0) fail("cannot be written");

@@ -14,7 +14,8 @@ inline constexpr const char* export_marker =
 /// Whether `file` is not there, or was written by an export before.
 [[nodiscard]] bool may_replace(const std::filesystem::path& file);
 
-/// Writes `text` to `file`, whole or not at all, for everybody to read. Throws std::runtime_error.
+/// Writes `text` to `file`, whole or not at all, for everybody to read; a pipe or device as
+/// it is. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace quoin::deploy

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "core/text/printable.hpp"
+
 namespace quoin::deploy {
 
 namespace {
@@ -56,8 +58,7 @@ std::string unit_program(std::string_view path) {
 }
 
 std::string unit_comment(std::string_view text) {
-  std::string line(text);
-  std::ranges::replace_if(line, is_control, '?');
+  std::string line = printable(text);
   // A backslash at the end of a line would join the next to it.
   if (line.ends_with('\\')) line += ' ';
   return line;

@@ -8,6 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/text/printable.hpp"
 #include "deploy/observation/table.hpp"
 
 namespace quoin::deploy {
@@ -34,15 +35,6 @@ bool has_live_terminal() {
   return ::isatty(STDOUT_FILENO) == 1 && type != nullptr && std::string_view(type) != "dumb";
 }
 
-/// What comes from another process must not move the cursor.
-std::string printable(std::string text) {
-  for (char& character : text) {
-    if ((character >= 0 && character < ' ' && character != '\t') || character == 127)
-      character = '?';
-  }
-  return text;
-}
-
 View view_of(const DeploymentFigures& figures) {
   return {.table = [&figures](std::size_t width) { return table_lines(figures, width); },
           .footer =
@@ -66,7 +58,8 @@ Display::~Display() {
 
 void Display::log(const std::string& service, const std::string& line) {
   const bool named = line.find("[" + service + "]") != std::string::npos;
-  const std::string text = printable(named ? line : "[" + service + "] " + line);
+  // What comes from another process must not move the cursor.
+  const std::string text = printable(named ? line : "[" + service + "] " + line, Lines::many);
   if (!live_) {
     std::cerr << text << std::endl;
     return;

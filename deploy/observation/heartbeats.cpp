@@ -15,6 +15,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr std::size_t most_namespaces = 64;
+constexpr std::size_t most_processes = 4096;
 }  // namespace
 
 ServiceReport report_of(const msg::ServiceStatus& status) {
@@ -47,6 +48,45 @@ std::optional<LineScatter> line_scatter_of(const msg::ServiceStatus& status) {
   return std::nullopt;
 }
 
+std::vector<std::string> input_complaints(const msg::ServiceStatus& status) {
+  std::vector<std::string> complaints;
+  for (const msg::InputStatus& input : status.inputs()) {
+    const std::string place = " messages of port " + input.port() + " (" + input.topic() + ") ";
+    if (input.duplicates() > 0) {
+      complaints.push_back(std::to_string(input.duplicates()) + place +
+                           "came before and were not "
+                           "used");
+    }
+    for (const msg::LossCount& refused : input.refused()) {
+      complaints.push_back(std::to_string(refused.count()) + place +
+                           "were refused: " + refused.cause());
+    }
+  }
+  return complaints;
+}
+
+std::vector<std::string> foreign_writers(const std::vector<const msg::ServiceStatus*>& statuses) {
+  std::map<std::string, std::uint64_t> known;    // writers by topic
+  std::map<std::string, std::uint64_t> matched;  // likewise, the most that a reader has
+  for (const msg::ServiceStatus* status : statuses) {
+    for (const msg::OutputStatus& output : status->outputs()) ++known[output.topic()];
+    for (const msg::InputStatus& input : status->inputs()) {
+      std::uint64_t& most = matched[input.topic()];
+      most = std::max<std::uint64_t>(most, input.writers());
+    }
+  }
+  std::vector<std::string> complaints;
+  for (const auto& [topic, writers] : matched) {
+    const auto own = known.find(topic);  // none: of an external service
+    if (own == known.end() || writers <= own->second) continue;
+    complaints.push_back("topic " + topic + " has " + std::to_string(writers) +
+                         " writers, of which " + std::to_string(own->second) +
+                         " report as a service: whatever the others "
+                         "write is read, too");
+  }
+  return complaints;
+}
+
 HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::string& name,
                                      bool all_namespaces)
     : all_namespaces_(all_namespaces),
@@ -73,7 +113,9 @@ void HeartbeatListener::look_for_namespaces() {
 void HeartbeatListener::take(const std::string& name_space, StatusReader& reader) {
   while (reader.take(status_)) {
     const std::int64_t delay = runtime::now_ns() - status_.stamp();
-    const auto [entry, first] = heard_.try_emplace({name_space, status_.incarnation()});
+    const std::pair key(name_space, status_.incarnation());
+    if (heard_.size() >= most_processes && !heard_.contains(key)) continue;
+    const auto [entry, first] = heard_.try_emplace(key);
     HeardHeartbeats& heard = entry->second;
     if (!first) {
       heard.delay = heard.fresh == 0 ? delay : std::min(heard.delay, delay);

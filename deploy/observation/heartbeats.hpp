@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/statistics/line_scatter.hpp"
 #include "deploy/observation/figures.hpp"
@@ -25,6 +26,14 @@ namespace quoin::deploy {
 
 /// How much lines scatter, of a service that fits them.
 [[nodiscard]] std::optional<LineScatter> line_scatter_of(const msg::ServiceStatus& status);
+
+/// What is wrong with what comes in by the ports of a service, a text each: messages that are
+/// repeated or refused.
+[[nodiscard]] std::vector<std::string> input_complaints(const msg::ServiceStatus& status);
+
+/// Topics with more writers than services that report to write them, of all that report.
+[[nodiscard]] std::vector<std::string> foreign_writers(
+    const std::vector<const msg::ServiceStatus*>& statuses);
 
 /// What one process reported of itself.
 struct HeardHeartbeats {

@@ -28,6 +28,7 @@ void Monitor::listen_to(std::size_t end, const Connection& connection) {
   ends_.push_back(std::unique_ptr<End>(new End{
       end,
       connection.type,
+      topics::message_check(type),
       {participant_, output.topic, type, runtime::output_qos(*connection.writer, output)}}));
   wait_set_.add(ends_.back()->reader);
 }
@@ -56,7 +57,9 @@ void Monitor::take_all() {
 
 void Monitor::take_all(End& end) {
   while (end.reader.take(raw_)) {
-    if (!topics::read_header(raw_, header_)) continue;  // no message of ours
+    // No message of ours, or not of whom it says.
+    if (end.check->refusal(raw_.cdr) || !topics::read_header(raw_, header_)) continue;
+    if (!end.reader.admit(header_)) continue;
     EndMessage message;
     if (end.type == "corners" && topics::decode(raw_, corners_)) message = &corners_;
     if (end.type == "pose" && topics::decode(raw_, pose_)) message = &pose_;

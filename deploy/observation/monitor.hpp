@@ -20,6 +20,7 @@
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/process/heartbeat.hpp"
 #include "services/topics/cdr_codec.hpp"
+#include "services/topics/message_check.hpp"
 
 namespace quoin::deploy {
 
@@ -45,6 +46,7 @@ class Monitor {
   struct End {
     std::size_t number;  // of the record
     std::string type;    // of the table of topic types
+    const topics::MessageCheck* check;
     runtime::RawReader reader;
   };
   void listen_to(std::size_t end, const Connection& connection);

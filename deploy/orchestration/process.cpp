@@ -3,6 +3,7 @@
 #include "deploy/orchestration/process.hpp"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -19,6 +20,8 @@ namespace {
 
 constexpr std::size_t longest_line = 8192;
 
+std::atomic<int> kept_open{-1};
+
 [[noreturn]] void throw_errno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
@@ -34,7 +37,9 @@ constexpr std::size_t longest_line = 8192;
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
   // Sockets of the parent's DDS participant must not stay open in the child.
-  ::syscall(SYS_close_range, 3U, ~0U, 0U);
+  const bool kept = kept_open >= 0 && ::dup2(kept_open, 3) == 3;
+  if (kept) ::fcntl(3, F_SETFD, 0);
+  ::syscall(SYS_close_range, kept ? 4U : 3U, ~0U, 0U);
   // A log line into the pipe of a parent that died must not keep the child from an orderly end.
   ::signal(SIGPIPE, SIG_IGN);
   sigset_t none;
@@ -52,6 +57,8 @@ std::string describe(const ProcessEnd& end) {
   if (!end.by_signal) return "exit code " + std::to_string(end.value);
   return "signal " + std::to_string(end.value) + " (" + ::strsignal(end.value) + ")";
 }
+
+void Process::keep_open(int descriptor) { kept_open = descriptor; }
 
 Process::Process(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
   const std::string program_text = program.string();

@@ -37,6 +37,10 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  /// Processes that are started from now on keep this open, so that others see whether they live;
+  /// -1: nothing.
+  static void keep_open(int descriptor);
+
   [[nodiscard]] pid_t pid() const { return pid_; }
   /// To poll for reading: ready when the process has ended.
   [[nodiscard]] int end_descriptor() const { return end_descriptor_; }

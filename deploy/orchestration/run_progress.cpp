@@ -21,6 +21,8 @@ void add_process(const ProcessFigures& process, const DeploymentRecord& record,
   } else if (process.phase == ProcessPhase::running &&
              !record.process(service.name, process.process_id)) {
     state = "starting";  // nothing heard of the new process yet
+  } else if (process.phase == ProcessPhase::finished && state != "stopped" && state != "failed") {
+    state = "finished";  // in order, even if its last heartbeat was not heard
   }
   if (process.phase == ProcessPhase::pausing || process.phase == ProcessPhase::dead) {
     service.report.rate = 0.0;

@@ -66,6 +66,7 @@ bool LineReader::next(std::string_view& line) {
       fail(max_line_length, "line longer than 16 MiB; is this a scan file?");
   }
   if (line.ends_with('\r')) line.remove_suffix(1);
+  if (line_number_ > 1 && line.starts_with('\r')) line.remove_prefix(1);  // an end of LF CR
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (line_number_ == 1 && line.starts_with(byte_order_mark)) {
     line.remove_prefix(byte_order_mark.size());

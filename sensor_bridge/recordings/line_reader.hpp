@@ -24,9 +24,9 @@ class LineReader {
   /// Throws ScanFileError when the file cannot be opened.
   explicit LineReader(const std::filesystem::path& file);
 
-  /// The next line, without its end (LF or CR LF), valid until the next call; false at the end of
-  /// the file. A last line without an end counts, unless the file is compressed and cut off. Throws
-  /// ScanFileError.
+  /// The next line, without its end (LF, CR LF or LF CR), valid until the next call; false at the
+  /// end of the file. A last line without an end counts, unless the file is compressed and cut off.
+  /// Throws ScanFileError.
   bool next(std::string_view& line);
 
   /// Number of the line last read, from 1; 0 before the first.

@@ -102,6 +102,8 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
   std::optional<std::int64_t> first_stamp;  // [ns] as recorded
   std::set<std::string> told;               // notes
   const steady_clock::time_point start = steady_clock::now();
+  // From here on it counts how long nothing is heard of it: a file may have no scan for long.
+  if (!source.wait_until(start)) return;
   for (std::int64_t count = 0; parameters.scans == 0 || count < parameters.scans; ++count) {
     if (!next(files, parameters.loop, recorded)) break;
     for (const std::string& note : recorded.notes) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
-#include <stdexcept>
 
 #include "core/circles/circle_fitters.hpp"
 #include "services/circle_fitting/kind.hpp"
@@ -18,7 +17,6 @@ runtime::Handler<msg::Segments, msg::Circles> make(const std::string& method,
   const auto fit = CircleFitters::make<CircleFitter>(method, parameters);
   auto points = std::make_shared<Points>();
   return [fit, points](const msg::Segments& in, msg::Circles& out) {
-    if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
     const SensorModel sensor = topics::sensor_model(in.sensor_model());
     convert_ordered(in.bearings(), in.ranges(), *points);
     out.sensor_model(in.sensor_model());

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
-#include <stdexcept>
 
 #include "core/fitting/fitters.hpp"
 #include "services/line_fitting/estimated_noise.hpp"
@@ -25,7 +24,6 @@ runtime::Method make(const std::string& method, const ParameterSettings& paramet
   return {.handle = [fit, mode, propagated, points, scatter, noise](runtime::Work& work) {
     const msg::Segments& in = work.input<msg::Segments>();
     msg::Lines& out = work.output<msg::Lines>();
-    if (!topics::valid(in)) throw std::invalid_argument("index ranges outside the points");
     convert_ordered(in.bearings(), in.ranges(), *points);
     const SensorModel sensor = noise->model_for(in);
     noise->declare(in, sensor, out);

@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds flush_period{500};
 Recorder::Recorder(const std::filesystem::path& path, const RecorderParameters& parameters,
                    std::vector<RecordedTopic> topics, RunFacts facts)
     : recording_(path, parameters, topics, std::move(facts)) {
-  for (const RecordedTopic& topic : topics) accounts_.push_back({topic.topic, {}, 0, 0});
+  for (const RecordedTopic& topic : topics)
+    accounts_.push_back({topic.topic, runtime::ScanAccounting(), 0, 0});
   figures_.file = recording_.file().string();
   thread_ = std::thread([this] { run(); });
 }
@@ -36,7 +37,7 @@ void Recorder::record(std::size_t topic, const topics::RawMessage& raw, const ms
   for (const runtime::Loss& loss : account.accounting.receive(header)) {
     if (loss.site.place == runtime::LossPlace::link) missed += loss.count;
   }
-  if (account.accounting.last_was_duplicate()) return;
+  if (account.accounting.verdict() != runtime::ScanAccounting::Verdict::received) return;
   account.missed += missed;
 
   const std::lock_guard lock(mutex_);

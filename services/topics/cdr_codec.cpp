@@ -10,6 +10,8 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
+#include "services/topics/message_check.hpp"
+
 namespace quoin::topics {
 
 using eprosima::fastcdr::Cdr;
@@ -70,6 +72,9 @@ bool decode(const CdrCodec& codec, const std::byte* cdr, std::size_t size, void*
   return true;
 }
 
-bool read_header(const RawMessage& raw, msg::Header& header) { return decode(raw, header); }
+bool read_header(const RawMessage& raw, msg::Header& header) {
+  static const MessageCheck& check = *message_check(type_name<msg::Header>());
+  return !check.refusal_of_beginning(raw.cdr) && decode(raw, header);
+}
 
 }  // namespace quoin::topics

@@ -99,7 +99,8 @@ template <class T>
 }
 
 /// The header that any of our messages on data topics begins with, without the rest. False when the
-/// bytes, which anybody may have sent, are too few; those of another type may pass for a header.
+/// bytes, which anybody may have sent, are no header as its IDL promises it; those of another type
+/// may pass for one.
 [[nodiscard]] bool read_header(const RawMessage& raw, msg::Header& header);
 
 }  // namespace quoin::topics

@@ -34,6 +34,7 @@ class Lexer {
   explicit Lexer(std::string_view text) : rest_(text) {}
 
   Token next() {
+    limits_ = {};
     skip_blanks_and_comments();
     if (rest_.empty()) return {{}, line_};
     std::size_t length = 1;
@@ -53,6 +54,9 @@ class Lexer {
     return {take(length), line_};
   }
 
+  /// What stands behind the //@ of the line on which the last token began to be looked for.
+  [[nodiscard]] std::string_view limits() const { return limits_; }
+
  private:
   std::string_view take(std::size_t length) {
     const std::string_view taken = rest_.substr(0, length);
@@ -61,6 +65,7 @@ class Lexer {
   }
 
   void skip_blanks_and_comments() {
+    const std::size_t first_line = line_;
     while (!rest_.empty()) {
       if (rest_[0] == '\n') {
         ++line_;
@@ -68,7 +73,8 @@ class Lexer {
       } else if (rest_[0] == ' ' || rest_[0] == '\t' || rest_[0] == '\r') {
         take(1);
       } else if (rest_.starts_with("//")) {
-        take(std::min(rest_.find('\n'), rest_.size()));
+        const std::string_view comment = take(std::min(rest_.find('\n'), rest_.size()));
+        if (comment.starts_with("//@") && line_ == first_line) limits_ = comment.substr(2);
       } else if (rest_.starts_with("/*")) {
         const std::size_t end = rest_.find("*/", 2);
         if (end == std::string_view::npos) throw IdlError(line_, "a comment is not closed");
@@ -81,8 +87,35 @@ class Lexer {
   }
 
   std::string_view rest_;
+  std::string_view limits_;
   std::size_t line_ = 1;
 };
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+/// Of "@name(argument, ...) @name(...) whatever follows".
+std::vector<IdlLimit> limits_of(std::string_view comment) {
+  std::vector<IdlLimit> limits;
+  while (comment.starts_with('@')) {
+    const std::size_t open = comment.find('(');
+    const std::size_t close = comment.find(')');
+    if (open == std::string_view::npos || close == std::string_view::npos || close < open) break;
+    IdlLimit& limit = limits.emplace_back();
+    limit.name = comment.substr(1, open - 1);
+    std::string_view rest = comment.substr(open + 1, close - open - 1);
+    while (!without_blanks(rest).empty()) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      limit.arguments.emplace_back(without_blanks(rest.substr(0, comma)));
+      rest.remove_prefix(std::min(comma + 1, rest.size()));
+    }
+    comment = without_blanks(comment.substr(close + 1));
+  }
+  return limits;
+}
 
 class Parser {
  public:
@@ -192,6 +225,7 @@ class Parser {
       do field(base, type.fields);
       while (accept(","));
       expect(";");
+      type.fields.back().limits = limits_of(lexer_.limits());
     } while (!accept("}"));
     add(std::move(type));
   }

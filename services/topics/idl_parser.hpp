@@ -30,9 +30,16 @@ enum class IdlKind {
   structure
 };
 
+/// What a comment behind a field says of its values: @range(0, 1) is {"range", {"0", "1"}}.
+struct IdlLimit {
+  std::string name;
+  std::vector<std::string> arguments;
+};
+
 struct IdlField {
   std::string name;
   std::size_t type = 0;  ///< index into IdlTypes::types
+  std::vector<IdlLimit> limits = {};
 };
 
 struct IdlType {
@@ -64,8 +71,10 @@ class IdlError : public std::runtime_error {
 };
 
 /// Reads modules, structures and enumerations of primitive types, strings, sequences and arrays,
-/// without #include (idl_text resolves them), typedef, const, union or wide characters. Comments
-/// and annotations are ignored; one that would change what is sent (such as @optional) is an error.
+/// without #include (idl_text resolves them), typedef, const, union or wide characters. Annotations
+/// are ignored; one that would change what is sent (such as @optional) is an error. So are
+/// comments, but for limits behind a field, in the form that DDS-XTypes 1.3 (7.3.1.2.3) has for
+/// tools that do not know an annotation: //@name(argument, ...) @name(...) and whatever follows.
 /// Throws IdlError.
 [[nodiscard]] IdlTypes parse_idl(std::string_view text);
 

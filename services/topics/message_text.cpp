@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
+
 namespace quoin::topics {
 
 namespace {
@@ -236,10 +238,7 @@ std::string to_text(std::string_view dds_type, const Json& message) {
     text = fields_text(message);
   }
   if (text.starts_with(' ')) text.erase(0, 1);
-  // A name may come from anybody and goes to a terminal.
-  std::ranges::replace_if(
-      text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, '?');
-  return text;
+  return printable(text);  // a name may come from anybody and goes to a terminal
 }
 
 }  // namespace quoin::topics

@@ -3,6 +3,7 @@
 #include "services/topics/segments.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace quoin::topics {
 namespace {
@@ -18,8 +19,10 @@ void fill_ranges(const std::vector<Segment>& runs, std::vector<msg::IndexRange>&
 }  // namespace
 
 SensorModel sensor_model(const msg::SensorModel& message) {
+  // A range travels as a float, which is rounded: no sensor has less noise than that.
+  constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
   return {message.range_stddev(), message.bearing_stddev(), message.range_bias_stddev(),
-          message.range_stddev_per_metre(), message.flatness_stddev()};
+          std::max(message.range_stddev_per_metre(), rounding), message.flatness_stddev()};
 }
 
 msg::SensorModel sensor_model_message(const SensorModel& model) {

@@ -50,12 +50,12 @@ my @floors = (
 # How many files the main file of a service may reach.
 # The viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 130,
-    'services/mapping/main.cpp'      => 130,
-    'services/segmentation/main.cpp' => 135,
-    'services/viewer/main.cpp'       => 195,
+    'services/localization/main.cpp' => 140,
+    'services/mapping/main.cpp'      => 140,
+    'services/segmentation/main.cpp' => 145,
+    'services/viewer/main.cpp'       => 205,
 );
-my $most_files_of_others = 120;
+my $most_files_of_others = 125;
 
 sub floor_of {
     my ($file) = @_;

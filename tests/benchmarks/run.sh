@@ -28,6 +28,7 @@ echo "extraction: one thread, 920 points" >&2
   --benchmark_repetitions=9 --benchmark_report_aggregates_only=true >"$work/extraction.txt" 2>&1
 "$bin/chain_benchmark" --extraction "$work/extraction.json" --format "$format"
 if [[ $format == table ]]; then
+  "$bin/segmentation_benchmark"
   "$bin/side_by_side_benchmark"
   "$bin/composed_benchmark"
   echo "RPLIDAR decoder and bridge" >&2

@@ -56,7 +56,7 @@ class Listener {
         if (!wait_set_.wait(20s)) throw std::runtime_error("no segments for 20 s");
       }
       accounting_.receive(message_.header());
-      if (accounting_.last_was_duplicate()) continue;
+      if (accounting_.verdict() != runtime::ScanAccounting::Verdict::received) continue;
       return message_.header().trace().at(1).incarnation();
     }
   }

@@ -34,13 +34,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
   -DQUOIN_FUZZ=ON -DQUOIN_DDS=OFF -DQUOIN_TESTS=OFF -DQUOIN_BENCHMARKS=OFF >"$work/build.txt" 2>&1 &&
-  cmake --build "$build" -j "$(nproc)" --target fuzz_sample_decoder fuzz_descriptor fuzz_cdr_json fuzz_idl \
+  cmake --build "$build" -j "$(nproc)" --target fuzz_sample_decoder fuzz_descriptor fuzz_cdr_json fuzz_message_check fuzz_idl \
     fuzz_viewer fuzz_mcap fuzz_bag fuzz_scan_message >>"$work/build.txt" 2>&1 ||
   { cat "$work/build.txt" >&2; exit 2; }
 
 failed=0
 mkdir -p "$build/findings"
-for target in sample_decoder descriptor cdr_json idl viewer mcap bag scan_message; do
+for target in sample_decoder descriptor cdr_json message_check idl viewer mcap bag scan_message; do
   cp -r "$root/tests/fuzz/corpus/$target" "$work/$target"
   status=0
   "$build/bin/fuzz_$target" "$work/$target" "$limit" -max_len=4096 -timeout=10 -print_final_stats=1 \

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <fstream>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+#include <iterator>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/node/clock.hpp"
@@ -44,24 +47,22 @@ msg::Header header(std::uint64_t sequence_number) {
   return made;
 }
 
-/// Scans as no healthy sensor sends them.
+/// Scans as no healthy sensor sends them, and yet scans.
 std::vector<msg::Scan> strange_scans() {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  std::vector<msg::Scan> scans(7);
+  std::vector<msg::Scan> scans(6);
   // 0: nothing at all
   scans[1].bearings({0.0F});
   scans[1].ranges({1.0F});
-  scans[2].bearings({0.0F, 0.1F, 0.2F, 0.3F});  // more bearings than ranges
-  scans[2].ranges({1.0F, 1.0F});
-  scans[3].bearings(std::vector<float>(100, nan));
+  scans[2].bearings({0.0F, 0.1F, 0.2F});
+  scans[2].ranges({1e30F, 1.0F, 1e-30F});
+  scans[3].bearings(std::vector<float>(100, 99.0F));
   scans[3].ranges(std::vector<float>(100, nan));
   scans[4].bearings(std::vector<float>(100, 0.5F));  // all points equal
   scans[4].ranges(std::vector<float>(100, 2.0F));
-  scans[5].bearings(std::vector<float>(100, inf));
+  scans[5].bearings(std::vector<float>(100, 0.0F));
   scans[5].ranges(std::vector<float>(100, -inf));
-  scans[6].bearings({0.0F, 1e30F, -1e30F});
-  scans[6].ranges({1e30F, 1.0F, 1e-30F});
   for (std::size_t i = 0; i < scans.size(); ++i) {
     scans[i].header(header(i));
     scans[i].range_max(inf);
@@ -94,7 +95,7 @@ TEST(BadInput, StrangeScansGiveEmptyResultsThatAreCounted) {
   EXPECT_EQ(status.latest("walls").lost(), 0U);
 }
 
-TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
+TEST(BadInput, SegmentsOutsideTheirPointsAreRefusedByNameAndNothingElseIs) {
   const TestDeployment deployment(chain);
   runtime::Participant participant(deployment.participant("test"));
   CornerRecorder recorder(participant, deployment, "corners");
@@ -118,11 +119,15 @@ TEST(BadInput, SegmentsOutsideTheirPointsAreLostInProcessingAndNothingElseIs) {
   EXPECT_THAT(recorder.accounting().lost_by_site(),
               testing::ElementsAre(
                   testing::Pair(runtime::LossSite{runtime::LossPlace::service, "wctls"}, 1)));
-  EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 3; }));
+  EXPECT_TRUE(status.wait_for("wctls", [](const auto& s) { return s.received() == 2; }));
   EXPECT_EQ(status.latest("wctls").published(), 2U);
   EXPECT_EQ(status.latest("wctls").lost(), 1U);
   ASSERT_EQ(status.latest("wctls").losses().size(), 1U);
-  EXPECT_EQ(status.latest("wctls").losses()[0].cause(), "processing");
+  EXPECT_EQ(status.latest("wctls").losses()[0].cause(), "link");
+  const msg::InputStatus& input = status.latest("wctls").inputs().at(0);
+  ASSERT_EQ(input.refused().size(), 1U);
+  EXPECT_EQ(input.refused()[0].cause(), "segments: out of range");
+  EXPECT_EQ(input.refused()[0].count(), 1U);
 }
 
 std::string carmen_line(int points) {
@@ -154,6 +159,31 @@ TEST(BadInput, GoodScansBeforeAMalformedLineAreStillPublished) {
   EXPECT_EQ(front.wait(20s), 3);
   EXPECT_THAT(front.errors(), HasSubstr(log.string() + ":3:"));
   EXPECT_EQ(recorder.poll(), 2U);
+}
+
+// Gigabytes of empty lines in a few megabytes.
+TEST(BadInput, ASourceThatFindsNoScanForEverEndsAtASignal) {
+  const tests::TemporaryFolder folder;
+  const auto log = folder.write("empty.log.gz", "");
+  const std::string lines(1U << 20U, '\n');
+  gzFile part = ::gzopen(log.c_str(), "wb1");
+  for (int i = 0; i < 64; ++i) ::gzwrite(part, lines.data(), static_cast<unsigned>(lines.size()));
+  ::gzclose(part);
+  std::ifstream stream(log, std::ios::binary);
+  const std::string member((std::istreambuf_iterator<char>(stream)), {});
+  std::ofstream whole(log, std::ios::binary | std::ios::app);
+  for (int i = 0; i < 300; ++i) whole << member;
+  whole.close();
+  const TestDeployment deployment(
+      "\n  - {name: front, kind: replay, parameters: {path: " + log.string() + "}}\n");
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process front = deployment.start("front");
+  ASSERT_TRUE(status.wait_for(
+      "front", [](const auto& heartbeat) { return heartbeat.state() == msg::STATE_ACTIVE; }));
+  front.signal(SIGTERM);
+  EXPECT_EQ(front.wait(10s), 1);
+  EXPECT_THAT(front.errors(), HasSubstr("service 'front' does not end"));
 }
 
 TEST(BadInput, AMissingScanFileStopsTheStart) {

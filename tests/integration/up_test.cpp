@@ -106,6 +106,28 @@ TEST(Up, NoServiceOutlivesAKilledQuoin) {
   EXPECT_TRUE(tests::eventually([&] { return processes_naming(deployment.file()).empty(); }));
 }
 
+TEST(Up, WaitsForTheServicesOfAKilledOne) {
+  const TestDeployment deployment(chain("rate_hz: 50"));
+  runtime::Participant participant(deployment.participant("test"));
+  StatusRecorder status(participant, deployment);
+  Process killed = deployment.quoin({"up", "FILE", "--quiet"});
+  ASSERT_TRUE(status.wait_for("corners", [](const auto& s) { return s.published() > 10; }));
+  const std::uint64_t before = status.latest("corners").incarnation();
+  // A service that takes its time.
+  ASSERT_EQ(kill(static_cast<pid_t>(status.latest("walls").pid()), SIGSTOP), 0);
+  killed.signal(SIGKILL);
+  EXPECT_EQ(killed.wait(10s), 128 + SIGKILL);
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  EXPECT_EQ(up.wait(1s), std::nullopt);
+  EXPECT_EQ(status.latest("corners").incarnation(), before) << "nothing is started";
+  ASSERT_EQ(kill(static_cast<pid_t>(status.latest("walls").pid()), SIGCONT), 0);
+  EXPECT_TRUE(status.wait_for(
+      "corners", [&](const auto& s) { return s.incarnation() != before && s.published() > 10; }));
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(30s), 0) << up.errors();
+  EXPECT_THAT(up.errors(), testing::Not(HasSubstr("also runs as")));
+}
+
 TEST(Up, AKilledServiceIsStartedAgainAndTheLossIsShown) {
   const TestDeployment deployment(chain("rate_hz: 50"));
   runtime::Participant participant(deployment.participant("test"));

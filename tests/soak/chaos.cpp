@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 #include <signal.h>
+#include <unistd.h>
 
 namespace quoin::soak {
 
@@ -32,7 +33,12 @@ Chaos::Chaos(const tests::TestDeployment& deployment, const Scenario& scenario,
                 runtime::QosPreset::control),
       replies_(participant_, control_reply_topic(deployment.deployment().name_space),
                runtime::QosPreset::control),
-      next_(Clock::now() + seconds(5.0)) {}
+      next_(Clock::now() + seconds(5.0)) {
+  if (scenario.attacked.size() == 3) {
+    neighbour_.emplace(deployment, scenario.attacked[0], scenario.attacked[1], scenario.attacked[2],
+                       seed + 1);
+  }
+}
 
 Chaos::~Chaos() {
   for (const Pause& pause : pauses_) ::kill(pause.process, SIGCONT);
@@ -63,6 +69,7 @@ void Chaos::listen() {
     newest = status;
     processes_[static_cast<pid_t>(status.pid())] = status.service();
   }
+  if (neighbour_) neighbour_->listen();
   msg::ControlReply reply;
   while (replies_.take(reply)) {
     if (reply.requester() == "chaos") ++counts_[reply.accepted() ? "accepted" : "refused"];
@@ -97,10 +104,10 @@ void Chaos::end_disturbances() {
 void Chaos::act() {
   using Action = void (Chaos::*)();
   // An action stands here as often as it is meant to be likely.
-  static constexpr std::array<Action, 10> actions{
-      &Chaos::kill_one, &Chaos::kill_one,     &Chaos::pause_one,    &Chaos::pause_one,
-      &Chaos::swap_one, &Chaos::swap_one,     &Chaos::ask_nonsense, &Chaos::apply_another,
-      &Chaos::invite,   &Chaos::apply_another};
+  static constexpr std::array<Action, 12> actions{
+      &Chaos::kill_one, &Chaos::kill_one,      &Chaos::pause_one,    &Chaos::pause_one,
+      &Chaos::swap_one, &Chaos::swap_one,      &Chaos::ask_nonsense, &Chaos::apply_another,
+      &Chaos::invite,   &Chaos::apply_another, &Chaos::attack,       &Chaos::attack};
   (this->*actions[below(actions.size())])();
 }
 
@@ -108,7 +115,10 @@ std::vector<Member> Chaos::members() const {
   std::vector<Member> members;
   for (const auto& [name, status] : latest_) {
     const auto process = static_cast<pid_t>(status.pid());
-    const bool works = status.state() == msg::STATE_ACTIVE && ::kill(process, 0) == 0;
+    // Whatever a neighbour invents: nobody but processes of this test may be signalled.
+    const bool ours = process > 1 && ::getpgid(process) == process && ::getpgid(0) != process &&
+                      !name.starts_with("ghost_");
+    const bool works = ours && status.state() == msg::STATE_ACTIVE && ::kill(process, 0) == 0;
     if (works) members.push_back({name, process, true});
   }
   return members;
@@ -177,6 +187,12 @@ void Chaos::apply_another() {
   const auto& file = compositions_[below(compositions_.size())];
   apply_.emplace(deployment_.quoin({"apply", file.string()}));
   ++counts_["applied"];
+}
+
+void Chaos::attack() {
+  if (!neighbour_ || !neighbour_->informed()) return;
+  for (int i = 0; i < 3; ++i) neighbour_->attack();
+  ++counts_["attacks"];
 }
 
 void Chaos::invite() {

@@ -18,6 +18,7 @@
 
 #include "services/runtime/dds/endpoints.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/integration/harness/hostile_neighbour.hpp"
 #include "tests/soak/composition.hpp"
 
 namespace quoin::soak {
@@ -82,6 +83,7 @@ class Chaos {
   void ask_nonsense();
   void apply_another();
   void invite();
+  void attack();
   [[nodiscard]] std::optional<Member> any_member();
   [[nodiscard]] std::string nonsense();
   [[nodiscard]] double uniform(double from, double to);
@@ -102,6 +104,7 @@ class Chaos {
   std::vector<Pause> pauses_;
   std::vector<std::unique_ptr<Visitor>> visitors_;
   std::optional<tests::Process> apply_;
+  std::optional<tests::HostileNeighbour> neighbour_;
   Clock::time_point next_;
   std::uint64_t request_ = 0;
 };

@@ -41,7 +41,8 @@ Scenario shipped_kinds() {
                     .listened = {"steady_corners", "second_corners"},
                     .visited = "second_corners",
                     .swaps = {},
-                    .spared = {"front", "walls", "steady@10", "steady_corners"}};
+                    .spared = {"front", "walls", "steady@10", "steady_corners"},
+                    .attacked = {"front", "walls", "second"}};
   for (const MethodInfo& method : Fitters::descriptions()) {
     for (const char* service : {"second", "steady@10"}) {
       scenario.swaps.push_back({service, method.name});

@@ -25,6 +25,8 @@ struct Scenario {
   /// What may die up to some part of the run lives on from then, so that its memory tells
   /// something.
   std::set<std::string> spared;
+  /// Source, segmentation and line fitting that a hostile neighbour speaks for; none: nobody does.
+  std::vector<std::string> attacked = {};
 };
 
 /// Of the shipped kinds: all compositions have the source, the segmentation, a fitter with a

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <idl/Common.h>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin::runtime {
@@ -65,28 +69,54 @@ struct SourceAccount {
 /// repetition, as a stage that was late may make it. How many scans a process of the source
 /// published behind the last one that arrived cannot be known from headers; who knows it compares
 /// it with `sources` (`SourceLedger`).
+///
+/// Anybody may have made a header. A number that no sensor can have reached since the last message
+/// is refused. Should one that was taken have been false all the same, all that comes after it
+/// looks like repetitions; when for half a second nothing else comes, they are taken for the
+/// stream, and the jump before them for what it was.
 class ScanAccounting {
  public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit ScanAccounting(std::function<Clock::time_point()> now = Clock::now)
+      : now_(std::move(now)) {}
+
+  /// What became of a message.
+  enum class Verdict {
+    received,
+    duplicate,    ///< received before, or older: not to be used
+    implausible,  ///< with a number that cannot be: not to be used
+  };
+
   /// Takes note of a message; returns the losses since the one before (usually none). Scans before
   /// the first message of a source are not lost: nobody was listening.
   std::vector<Loss> receive(const msg::Header& header);
 
   /// From here to the next message nobody listens: nothing in between is lost.
   void interrupt() {
-    previous_.reset();
-    earlier_.clear();
+    state_.previous.reset();
+    state_.earlier.clear();
+    before_jump_.reset();
+    unused_.clear();
   }
 
-  /// Whether the last message was of a scan that had been received before, or was older.
-  [[nodiscard]] bool last_was_duplicate() const { return last_was_duplicate_; }
-  [[nodiscard]] std::uint64_t received() const { return received_; }
+  /// On the last message.
+  [[nodiscard]] Verdict verdict() const { return verdict_; }
+  /// Whether the last message was taken although it looked like a repetition; then the figures
+  /// below may have gone down: those of a false jump are not among them any more.
+  [[nodiscard]] bool rejoined() const { return rejoined_; }
+  [[nodiscard]] std::uint64_t received() const { return state_.received; }
   [[nodiscard]] std::uint64_t duplicates() const { return duplicates_; }
+  [[nodiscard]] std::uint64_t implausible() const { return implausible_; }
   [[nodiscard]] std::uint64_t lost() const;
-  [[nodiscard]] const LossCounts& lost_by_site() const { return lost_by_site_; }
+  [[nodiscard]] const LossCounts& lost_by_site() const { return state_.lost_by_site; }
   /// Number of the first scan received; nothing before that.
-  [[nodiscard]] std::optional<std::uint64_t> first_sequence() const { return first_sequence_; }
-  /// The processes of sources in the order in which they were first heard.
-  [[nodiscard]] const std::vector<SourceAccount>& sources() const { return sources_; }
+  [[nodiscard]] std::optional<std::uint64_t> first_sequence() const {
+    return state_.first_sequence;
+  }
+  /// The processes of sources in the order in which they were first heard; of hundreds the last
+  /// ones.
+  [[nodiscard]] const std::vector<SourceAccount>& sources() const { return state_.sources; }
 
  private:
   // Where a stage stood at the last message.
@@ -101,6 +131,21 @@ class ScanAccounting {
     std::uint64_t sequence_number = 0;
     std::vector<StagePosition> stages;
   };
+  struct State {
+    std::optional<Previous> previous;
+    std::vector<Previous> earlier;  // the last messages of the processes of the source before that
+    std::vector<SourceAccount> sources;
+    std::optional<std::uint64_t> first_sequence;
+    std::uint64_t received = 0;
+    LossCounts lost_by_site;
+  };
+  // Messages of one process of a source that were not used, with ascending numbers, and nothing
+  // else in between.
+  struct Unused {
+    std::uint64_t incarnation = 0;
+    std::uint64_t sequence_number = 0;  // of the last
+    Clock::time_point since;
+  };
   struct Made;
   enum class Change;
 
@@ -111,18 +156,25 @@ class ScanAccounting {
   [[nodiscard]] bool follows(const msg::Header& header) const;
   [[nodiscard]] Made made_since(const msg::Header& header, std::size_t position) const;
   [[nodiscard]] std::vector<Loss> losses_before(const msg::Header& header, bool same_source) const;
+  [[nodiscard]] bool plausible(const msg::Header& header) const;
+  [[nodiscard]] Verdict judge(const msg::Header& header, Change& change);
+  [[nodiscard]] bool goes_on_unused(const msg::Header& header);
+  void rejoin();
+  std::vector<Loss> take(const msg::Header& header, Change change);
+  void accept(const msg::Header& header, Change change, const std::vector<Loss>& losses);
   void remember(const msg::Header& header);
   void return_to(const msg::Header& header);
   void account_for(const msg::Header& header, Change change, const std::vector<Loss>& losses);
 
-  std::optional<Previous> previous_;
-  std::vector<Previous> earlier_;  // the last messages of the processes of the source before that
-  std::vector<SourceAccount> sources_;
-  std::optional<std::uint64_t> first_sequence_;
-  std::uint64_t received_ = 0;
+  std::function<Clock::time_point()> now_;
+  State state_;
+  std::optional<State> before_jump_;  // the last time that the numbers did not follow each other
+  std::vector<Unused> unused_;
+  Clock::time_point arrived_;  // the last message that was taken
   std::uint64_t duplicates_ = 0;
-  bool last_was_duplicate_ = false;
-  LossCounts lost_by_site_;
+  std::uint64_t implausible_ = 0;
+  Verdict verdict_ = Verdict::received;
+  bool rejoined_ = false;
 };
 
 }  // namespace quoin::runtime

@@ -73,10 +73,18 @@ bool CdrType::serialize(void* data, rtps::SerializedPayload_t* payload) {
 }
 
 bool CdrType::deserialize(rtps::SerializedPayload_t* payload, void* data) {
-  const auto& sample = *static_cast<const CdrSample*>(data);
+  auto& sample = *static_cast<CdrSample*>(data);
   const auto* in = reinterpret_cast<const std::byte*>(payload->data);
   if (sample.codec != nullptr) {
-    return topics::decode(*sample.codec, in, payload->length, sample.message);
+    if (sample.check == nullptr) {
+      return topics::decode(*sample.codec, in, payload->length, sample.message);
+    }
+    // DDS is to take it from the history in any case.
+    sample.refusal = sample.check->refusal({in, payload->length});
+    if (!sample.refusal && !topics::decode(*sample.codec, in, payload->length, sample.message)) {
+      sample.refusal = "not of its type";
+    }
+    return true;
   }
   if (!topics::is_plain_cdr(in, payload->length)) return false;
   static_cast<topics::RawMessage*>(sample.message)->cdr.assign(in, in + payload->length);

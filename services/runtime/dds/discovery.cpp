@@ -17,18 +17,15 @@
 #include <fastdds/rtps/resources/TimedEvent.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 
+#include "core/text/printable.hpp"
+#include "services/runtime/dds/process_writers.hpp"
+
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-std::string printable(std::string text) {
-  constexpr std::size_t longest = 80;
-  text.resize(std::min(text.size(), longest));
-  std::ranges::replace_if(
-      text, [](char c) { return c < ' ' || c > '~' || c == '\''; }, '?');
-  return text;
-}
+std::string foreign_name(std::string_view text) { return printable(text, Lines::one, 80); }
 
 namespace {
 
@@ -92,12 +89,9 @@ std::string time_text(std::int64_t nanoseconds) {
 // The policies of discovery data have other names than those of the DDS classes.
 template <class Qos>
 EndpointPolicies discovered(const Qos& qos, const std::string& type) {
-  return {printable(type),
-          qos.m_durability.kind,
-          qos.m_reliability.kind,
-          static_cast<int>(qos.m_ownership.kind),
-          qos.m_liveliness.kind,
-          qos.m_liveliness.lease_duration.to_ns(),
+  return {foreign_name(type),           qos.m_durability.kind,
+          qos.m_reliability.kind,       static_cast<int>(qos.m_ownership.kind),
+          qos.m_liveliness.kind,        qos.m_liveliness.lease_duration.to_ns(),
           qos.m_deadline.period.to_ns()};
 }
 
@@ -340,7 +334,7 @@ void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
       discovered_changed_.notify_all();
     }
     Known& known = participants_[prefix];
-    known.name = printable(info.info.m_participantName.to_string());
+    known.name = foreign_name(info.info.m_participantName.to_string());
     known.observes = announced_topics(info.info.m_userData);
     known.proxy = &info.info;
     known.vouched = true;
@@ -353,9 +347,11 @@ void KnownEndpoints::on_publisher_discovery(dds::DomainParticipant*,
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
     writers_.erase(key_of(info.info.guid()));
   } else {
+    const auto& user_data = info.info.m_qos.m_userData.getValue();
     writers_[key_of(info.info.guid())] = {
         prefix_of(info.info.guid()), info.info.topicName().to_string(),
-        discovered(info.info.m_qos, info.info.typeName().to_string())};
+        discovered(info.info.m_qos, info.info.typeName().to_string()),
+        announced_incarnation({reinterpret_cast<const char*>(user_data.data()), user_data.size()})};
   }
 }
 
@@ -369,6 +365,13 @@ void KnownEndpoints::on_subscriber_discovery(dds::DomainParticipant*,
         prefix_of(info.info.guid()), info.info.topicName().to_string(),
         discovered(info.info.m_qos, info.info.typeName().to_string())};
   }
+}
+
+std::optional<std::uint64_t> KnownEndpoints::incarnation_of_writer(const Guid& writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = writers_.find(writer);
+  if (known == writers_.end()) return std::nullopt;
+  return known->second.incarnation;
 }
 
 }  // namespace quoin::runtime

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -30,8 +32,8 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
-/// What another participant calls itself, fit for a log.
-[[nodiscard]] std::string printable(std::string text);
+/// What another participant calls itself or its topics, fit for a log.
+[[nodiscard]] std::string foreign_name(std::string_view text);
 
 /// What a participant announces about the topics that it observes, as its user data. Bounded, so
 /// that the announcement stays one datagram: of more than 128 topics the rest is left out. Only an
@@ -59,6 +61,8 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   /// Which writers of `topic` do not fit a reader of this participant.
   [[nodiscard]] std::vector<std::string> mismatches_of_reader(
       const std::string& topic, const EndpointPolicies& requested) const;
+  /// What a writer announces: announced_incarnation; nothing when it has not been discovered.
+  [[nodiscard]] std::optional<std::uint64_t> incarnation_of_writer(const Guid& writer) const;
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
 
@@ -101,6 +105,7 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
     Prefix participant{};
     std::string topic;
     EndpointPolicies policies;
+    std::uint64_t incarnation = 0;  // of a writer: announced
   };
 
   [[nodiscard]] std::string name_of(const Prefix& participant) const;

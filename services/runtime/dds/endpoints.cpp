@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include <fastdds/dds/core/condition/GuardCondition.hpp>
 #include <fastdds/dds/core/condition/WaitSet.hpp>
@@ -20,7 +21,9 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
                        const topics::CdrCodec* codec, const TopicQos& qos)
-    : participant(owner), topic_name(topic) {
+    : participant(owner),
+      topic_name(topic),
+      check(codec != nullptr ? topics::message_check(type_name) : nullptr) {
   reader = owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type_name, codec),
                                                       reader_qos(qos), this,
                                                       dds::StatusMask::subscription_matched());
@@ -49,21 +52,67 @@ bool ReaderBase::wait_for_writers(std::size_t count, std::chrono::milliseconds t
   return impl_->match.wait(count, timeout);
 }
 
+void ReaderBase::Impl::refuse(const std::string& reason) {
+  const std::lock_guard lock(mutex);
+  ++refused[reason];
+}
+
+std::uint64_t ReaderBase::Impl::incarnation_of(std::uint64_t hash,
+                                               const eprosima::fastrtps::rtps::GUID_t& writer) {
+  if (hash == last_writer) return last_incarnation;
+  KnownEndpoints::Guid guid{};
+  std::copy_n(writer.guidPrefix.value, 12, guid.begin());
+  std::copy_n(writer.entityId.value, 4, guid.begin() + 12);
+  const auto incarnation = participant.impl().endpoints->incarnation_of_writer(guid);
+  if (!incarnation) return 0;
+  last_writer = hash;
+  last_incarnation = *incarnation;
+  return last_incarnation;
+}
+
+bool ReaderBase::admit(const msg::Header& header) {
+  if (!header.trace().empty()) {
+    return admit(header.trace().back().service(), header.trace().back().incarnation());
+  }
+  // Services name themselves.
+  if (last_sample_.incarnation == 0 && impl_->writers.hears_strangers()) return true;
+  impl_->refuse("trace: of another writer");
+  return false;
+}
+
+bool ReaderBase::admit(const std::string& service, std::uint64_t incarnation) {
+  if (impl_->writers.admit(service, incarnation, last_sample_.writer, last_sample_.incarnation)) {
+    return true;
+  }
+  impl_->refuse("incarnation: of another writer");
+  return false;
+}
+
+topics::RefusedCounts ReaderBase::refused() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->refused;
+}
+
 std::vector<std::string> ReaderBase::incompatible_qos() const {
   return impl_->participant.impl().endpoints->mismatches_of_reader(impl_->topic_name,
                                                                    policies_of(*impl_->reader));
 }
 
 bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
-  CdrSample sample{message, codec};
+  CdrSample sample{message, codec, impl_->check};
   dds::SampleInfo info;
   while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+    if (sample.refusal) {
+      impl_->refuse(*std::exchange(sample.refusal, std::nullopt));
+      continue;
+    }
     if (!info.valid_data) continue;  // the end of an instance
     const auto& writer = info.sample_identity.writer_guid();
     std::uint64_t hash = 14695981039346656037U;  // FNV-1a
     for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
     for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
-    last_sample_ = {hash, info.sample_identity.sequence_number().to64long(),
+    last_sample_ = {hash, impl_->incarnation_of(hash, writer),
+                    info.sample_identity.sequence_number().to64long(),
                     info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()};
     return true;
   }

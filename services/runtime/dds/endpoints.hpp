@@ -12,6 +12,7 @@
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
 #include "services/topics/cdr_codec.hpp"
+#include "services/topics/message_check.hpp"
 
 namespace quoin::runtime {
 
@@ -27,14 +28,25 @@ class ReaderBase {
   /// Writers of this topic that do not fit, each with topic, policy and both sides' values.
   [[nodiscard]] std::vector<std::string> incompatible_qos() const;
 
+  /// What came and is no message of the type, breaks what its IDL promises (topics::MessageCheck),
+  /// or is of a process that another writer speaks for (ProcessWriters). What a raw reader takes is
+  /// as it was sent.
+  [[nodiscard]] topics::RefusedCounts refused() const;
+
   /// Where the message that was taken last came from, as DDS counts.
   struct Sample {
     std::uint64_t writer = 0;           ///< another one for another writer
+    std::uint64_t incarnation = 0;      ///< of the process that the writer announces; 0: of none
     std::uint64_t sequence_number = 0;  ///< of the sample among those of that writer, from 1
     std::int64_t sent = 0;              ///< [ns since the Unix epoch], by the writer's clock
     std::int64_t received = 0;          ///< [ns since the Unix epoch], by the clock of this host
   };
   [[nodiscard]] const Sample& last_sample() const { return last_sample_; }
+
+  /// Whether the message that was taken last, with this header, is of the writer that speaks for
+  /// its process; counts it as refused if not.
+  [[nodiscard]] bool admit(const msg::Header& header);
+  [[nodiscard]] bool admit(const std::string& service, std::uint64_t incarnation);
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }
@@ -59,8 +71,19 @@ class Reader : public ReaderBase {
   Reader(Participant& participant, const std::string& topic, const TopicQos& qos)
       : ReaderBase(participant, topic, topics::cdr_codec<T>().type_name, &topics::cdr_codec<T>(),
                    qos) {}
-  /// Next message into `message`, whose memory is reused; false when there is none.
-  bool take(T& message) { return take_sample(&message, &topics::cdr_codec<T>()); }
+  /// Next message that is not refused into `message`, whose memory is reused; false when there is
+  /// none.
+  bool take(T& message) {
+    while (take_sample(&message, &topics::cdr_codec<T>())) {
+      if constexpr (requires(const msg::Header& header) { header == message.header(); }) {
+        if (!admit(message.header())) continue;
+      } else if constexpr (requires { message.service(), message.incarnation(), message.pid(); }) {
+        if (!admit(message.service(), message.incarnation())) continue;
+      }
+      return true;
+    }
+    return false;
+  }
 };
 
 /// Reads the bytes of messages of any type, of which only the name needs to be known. Of types with

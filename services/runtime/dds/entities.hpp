@@ -30,8 +30,10 @@
 #include "services/runtime/dds/discovery.hpp"
 #include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/dds/participant.hpp"
+#include "services/runtime/dds/process_writers.hpp"
 #include "services/runtime/dds/qos.hpp"
 #include "services/topics/cdr_codec.hpp"
+#include "services/topics/message_check.hpp"
 
 namespace quoin::runtime {
 
@@ -81,6 +83,9 @@ inline constexpr std::uint32_t max_participants = 100;
 struct CdrSample {
   void* message = nullptr;  ///< of the codec's type; a topics::RawMessage where there is no codec
   const topics::CdrCodec* codec = nullptr;
+  /// Of a reader: what the bytes must keep to be read into the message, and why they were not read.
+  const topics::MessageCheck* check = nullptr;
+  topics::Refusal refusal = {};
 };
 
 /// DDS type whose samples are CdrSample. A participant registers a type once, whoever comes first;
@@ -119,9 +124,20 @@ struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
       eprosima::fastdds::dds::DataReader*,
       const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
 
+  void refuse(const std::string& reason);
+  /// That the writer announces; `hash` stands for it.
+  [[nodiscard]] std::uint64_t incarnation_of(std::uint64_t hash,
+                                             const eprosima::fastrtps::rtps::GUID_t& writer);
+
   Participant& participant;
   std::string topic_name;
+  const topics::MessageCheck* check;  // of typed messages; null where there is none
   MatchState match;
+  ProcessWriters writers;
+  std::uint64_t last_writer = 0;  // whose incarnation is known
+  std::uint64_t last_incarnation = 0;
+  std::mutex mutex;
+  topics::RefusedCounts refused;
   eprosima::fastdds::dds::DataReader* reader = nullptr;
 };
 

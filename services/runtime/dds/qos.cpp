@@ -37,8 +37,9 @@ TopicQos observer_qos(const ServiceConfig& service, const OutputConfig& output) 
 
 namespace {
 
-// Services of one deployment that share the status topic.
-constexpr int max_instances = 512;
+// Services that share the status topic. A deployment has 256 at most; who invents others is to
+// leave room for them.
+constexpr int max_instances = 16384;
 // Samples a lossless endpoint holds before the writer has to wait.
 constexpr int lossless_samples = 256;
 // Samples that an observer may be behind a writer that does not wait for it: a recording of some

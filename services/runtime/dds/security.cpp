@@ -67,7 +67,7 @@ class Refusals {
 
   void learn(const std::string& prefix, const std::string& name) {
     const std::lock_guard lock(mutex_);
-    if (names_.size() < most_names) names_[prefix] = printable(name);
+    if (names_.size() < most_names) names_[prefix] = foreign_name(name);
   }
   void forget(const std::string& prefix) {
     const std::lock_guard lock(mutex_);
@@ -118,7 +118,7 @@ class Consumer : public dds::LogConsumer {
     Refusals::instance().report(
         "refused " + Refusals::instance().participant(message.substr(guid, guid_end - guid)) +
         (writer ? ": no permission to write " : ": no permission to read ") +
-        printable(message.substr(topic + 2, topic_end - topic - 2)));
+        foreign_name(message.substr(topic + 2, topic_end - topic - 2)));
     return true;
   }
 };

@@ -105,6 +105,7 @@ class ReaderInput final : public Input {
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
     return reader_.incompatible_qos();
   }
+  [[nodiscard]] topics::RefusedCounts refused() const override { return reader_.refused(); }
   [[nodiscard]] ReaderBase& reader() { return reader_; }
 
  private:
@@ -122,7 +123,8 @@ struct ObservedMessage {
   msg::Header header;
 };
 
-/// Messages of any type that DDS brings to an observer. What has no header of ours is left out.
+/// Messages of any type that DDS brings to an observer. What has no header of ours, or one
+/// that cannot be, is left out.
 class ObservedInput final : public Input {
  public:
   /// `external`: as above.
@@ -139,7 +141,7 @@ class ObservedInput final : public Input {
     if (!next_) next_ = pool_.take();
     while (reader_.take(next_->raw)) {
       msg::Header& header = next_->header;
-      if (!topics::read_header(next_->raw, header)) continue;
+      if (!topics::read_header(next_->raw, header) || !reader_.admit(header)) continue;
       if (numbers_) numbers_->number(reader_.last_sample(), header);
       next_->type = type_;
       next_->topic = topic_;
@@ -151,6 +153,7 @@ class ObservedInput final : public Input {
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override {
     return reader_.incompatible_qos();
   }
+  [[nodiscard]] topics::RefusedCounts refused() const override { return reader_.refused(); }
   [[nodiscard]] ReaderBase& reader() { return reader_; }
 
  private:

@@ -151,4 +151,9 @@ std::vector<std::string> TakeOverInput::incompatible_qos() const {
   return before_ ? before_->incompatible_qos() : std::vector<std::string>();
 }
 
+topics::RefusedCounts TakeOverInput::refused() const {
+  const std::lock_guard lock(mutex_);
+  return before_ ? before_->refused() : topics::RefusedCounts();
+}
+
 }  // namespace quoin::runtime

@@ -129,6 +129,7 @@ class TakeOverInput final : public Input {
   [[nodiscard]] std::optional<Message> take() override;
   [[nodiscard]] std::size_t matched() const override;
   [[nodiscard]] std::vector<std::string> incompatible_qos() const override;
+  [[nodiscard]] topics::RefusedCounts refused() const override;
 
  private:
   std::unique_ptr<LocalInput> neighbour_;

@@ -18,10 +18,13 @@ namespace {
 
 // Messages that a held node keeps between two steps of the succession, which take milliseconds.
 constexpr std::size_t most_kept = 1024;
+// For what has been received when a service is asked to stop.
+constexpr std::chrono::milliseconds longest_drain{1500};
 // Messages that wait for what is joined to them; more stay with DDS.
 constexpr std::size_t most_waiting = 256;
 
-std::uint64_t number_of(const Message& message) { return topics::sequence_number(*message.header); }
+std::uint64_t number_of(const msg::Header& header) { return topics::sequence_number(header); }
+std::uint64_t number_of(const Message& message) { return number_of(*message.header); }
 
 /// Whether this is of another process than that of `known`, which did not go on with its numbers.
 bool numbers_anew(const msg::Header& header, std::uint64_t known) {
@@ -86,6 +89,9 @@ void Node::report_endpoints(msg::ServiceStatus& status) const {
   std::vector<std::string> mismatches = report_outputs(outputs_, status);
   for (std::size_t i = 0; i < ports_.size() && i < status.inputs().size(); ++i) {
     status.inputs()[i].writers(static_cast<std::uint32_t>(ports_[i]->part.input->matched()));
+    for (const auto& [reason, count] : ports_[i]->part.input->refused()) {
+      add_refused(status.inputs()[i], reason, count);
+    }
     for (std::string& text : ports_[i]->part.input->incompatible_qos()) {
       mismatches.push_back(std::move(text));
     }
@@ -114,7 +120,11 @@ bool Node::step() {
 
 void Node::drain() {
   draining_ = true;
+  const Clock::time_point deadline = thread_.now() + longest_drain;
   while (step()) {
+    if (thread_.now() < deadline) continue;
+    spdlog::warn("what has been received is too much to be handled before the end");
+    return;
   }
 }
 
@@ -218,16 +228,32 @@ bool Node::take_each(std::size_t index) {
 bool Node::account(std::size_t index, const msg::Header& header) {
   Port& port = *ports_[index];
   if (port.newest_counts) port.accounting.interrupt();
-  std::uint64_t link_lost = 0;
-  std::uint64_t upstream_lost = 0;
   for (const Loss& loss : port.accounting.receive(header)) {
-    (loss.site.place == LossPlace::link ? link_lost : upstream_lost) += loss.count;
     spdlog::warn("{} scans of {}..{} lost by {}", loss.count, loss.first_sequence,
                  loss.last_sequence, to_text(loss.site));
   }
-  if (port.accounting.last_was_duplicate()) {
-    thread_.record.count_duplicate(index);
-    return false;
+  switch (port.accounting.verdict()) {
+    case ScanAccounting::Verdict::duplicate:
+      thread_.record.count_duplicate(index);
+      return false;
+    case ScanAccounting::Verdict::implausible:
+      spdlog::warn("refused scan {} of {}: no sensor can have got so far", number_of(header),
+                   topics::source(header));
+      thread_.record.count_refused(index, "header.origins.sequence_number: implausible");
+      return false;
+    case ScanAccounting::Verdict::received:
+      break;
+  }
+  if (port.accounting.rejoined()) {
+    spdlog::warn(
+        "port {} goes on with scan {} of {}, which looked like a repetition: what came "
+        "before it was false",
+        port.part.port.name, number_of(header), topics::source(header));
+  }
+  std::uint64_t link_lost = 0;
+  std::uint64_t upstream_lost = 0;
+  for (const auto& [site, count] : port.accounting.lost_by_site()) {
+    (site.place == LossPlace::link ? link_lost : upstream_lost) += count;
   }
   thread_.record.count_received(index, port.each(), upstream_lost, link_lost);
   return true;

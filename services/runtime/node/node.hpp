@@ -66,7 +66,7 @@ class Node {
   [[nodiscard]] bool full() const;
   /// Whether its successor does the work now: it handles nothing more.
   [[nodiscard]] bool has_left() const { return left_; }
-  /// Handles what has been received, waiting for nothing.
+  /// Handles what has been received, waiting for nothing; for a second and a half at most.
   void drain();
   /// After the last result has arrived: informs the successor where to begin.
   void leave();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "services/runtime/node/service_record.hpp"
+#include "services/topics/message_check.hpp"
 
 namespace quoin::runtime {
 
@@ -40,6 +41,8 @@ class Input {
   [[nodiscard]] virtual std::size_t matched() const = 0;
   /// Writers that do not fit, with both sides' values.
   [[nodiscard]] virtual std::vector<std::string> incompatible_qos() const { return {}; }
+  /// Messages that came and were not given to anybody, by reason.
+  [[nodiscard]] virtual topics::RefusedCounts refused() const { return {}; }
 };
 
 /// Where the messages of one topic go to.

@@ -9,6 +9,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/text/printable.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 #include "services/runtime/node/clock.hpp"
 
@@ -17,6 +18,10 @@ namespace quoin::runtime {
 namespace {
 
 constexpr std::array<const char*, 3> cause_names{"link", "processing", "publishing"};
+
+constexpr std::int64_t longest_blocked = 2'000'000'000;  // [ns]
+// Of what is written down for others, who refuse longer texts.
+constexpr std::size_t longest_text = 4000;  // [byte]
 
 double seconds(std::int64_t from, std::int64_t to) { return static_cast<double>(to - from) * 1e-9; }
 
@@ -54,13 +59,13 @@ ServiceRecord::ServiceRecord(const ServiceConfig& config)
 void ServiceRecord::set_state(msg::ServiceState state, const std::string& detail) {
   const std::lock_guard lock(mutex_);
   status_.state(state);
-  status_.detail(detail);
+  status_.detail(printable(detail, Lines::many, longest_text));
   if (on_change_) on_change_();
 }
 
 void ServiceRecord::set_detail(const std::string& detail) {
   const std::lock_guard lock(mutex_);
-  status_.detail(detail);
+  status_.detail(printable(detail, Lines::many, longest_text));
 }
 
 std::string ServiceRecord::detail() const {
@@ -82,13 +87,13 @@ void ServiceRecord::set_diagnostic(const std::string& name, const std::string& v
   const std::lock_guard lock(mutex_);
   for (msg::Diagnostic& diagnostic : status_.diagnostics()) {
     if (diagnostic.name() == name) {
-      diagnostic.value(value);
+      diagnostic.value(printable(value, Lines::many, longest_text));
       return;
     }
   }
   msg::Diagnostic& diagnostic = status_.diagnostics().emplace_back();
   diagnostic.name(name);
-  diagnostic.value(value);
+  diagnostic.value(printable(value, Lines::many, longest_text));
 }
 
 void ServiceRecord::set_endpoint_report(std::function<void(msg::ServiceStatus&)> report) {
@@ -113,12 +118,61 @@ void ServiceRecord::count_received(std::size_t input, bool each, std::uint64_t u
   const std::lock_guard lock(mutex_);
   msg::InputStatus& port = status_.inputs()[input];
   ++port.received();
-  port.upstream_lost() += upstream_lost;
-  port.lost() += link_lost;
-  if (!each) return;
-  ++status_.received();
-  status_.upstream_lost() += upstream_lost;
-  losses_[static_cast<std::size_t>(LossCause::link)] += link_lost;
+  if (each) {
+    // Less than before when some of them turn out to be false.
+    ++status_.received();
+    status_.upstream_lost() += upstream_lost - port.upstream_lost();
+    losses_[static_cast<std::size_t>(LossCause::link)] += link_lost - port.lost();
+  }
+  port.upstream_lost(upstream_lost);
+  port.lost(link_lost);
+}
+
+void ServiceRecord::count_refused(std::size_t input, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  if (refused_.size() <= input) refused_.resize(input + 1);
+  ++refused_[input][reason];
+}
+
+void add_refused(msg::InputStatus& input, const std::string& reason, std::uint64_t count) {
+  const auto known = std::ranges::find_if(
+      input.refused(), [&](const msg::LossCount& refused) { return refused.cause() == reason; });
+  if (known != input.refused().end()) {
+    known->count() += count;
+    return;
+  }
+  msg::LossCount& refused = input.refused().emplace_back();
+  refused.cause(reason);
+  refused.count(count);
+}
+
+void ServiceRecord::log_refused() {
+  for (const msg::InputStatus& input : status_.inputs()) {
+    for (const msg::LossCount& refused : input.refused()) {
+      std::uint64_t& logged = logged_refused_[input.port() + ": " + refused.cause()];
+      if (refused.count() <= logged) continue;
+      spdlog::warn("refused {} messages of port {}: {}", refused.count() - logged, input.port(),
+                   refused.cause());
+      logged = refused.count();
+    }
+  }
+}
+
+void ServiceRecord::look_whether_blocked(std::int64_t now) {
+  std::uint64_t used = 0;
+  std::uint64_t unused = 0;
+  for (const msg::InputStatus& input : status_.inputs()) {
+    used += input.received();
+    unused += input.duplicates();
+    for (const msg::LossCount& refused : input.refused()) unused += refused.count();
+  }
+  const bool came = std::exchange(unused_, unused) != unused;
+  if (std::exchange(used_, used) != used) {
+    unused_since_ = 0;
+  } else if (came && unused_since_ == 0) {
+    unused_since_ = now;
+  }
+  if (came) unused_last_ = now;
 }
 
 void ServiceRecord::count_duplicate(std::size_t input) {
@@ -187,13 +241,26 @@ msg::ServiceStatus ServiceRecord::snapshot() {
   status_.processing_p50(processing_.quantile(0.5));
   status_.processing_p99(processing_.quantile(0.99));
   const std::vector<std::string> known = status_.incompatible_qos();
+  for (msg::InputStatus& input : status_.inputs()) input.refused().clear();
   if (endpoint_report_) endpoint_report_(status_);
+  for (std::size_t i = 0; i < std::min(refused_.size(), status_.inputs().size()); ++i) {
+    for (const auto& [reason, count] : refused_[i]) add_refused(status_.inputs()[i], reason, count);
+  }
   for (const std::string& mismatch : status_.incompatible_qos()) {
     if (std::find(known.begin(), known.end(), mismatch) == known.end()) {
       spdlog::warn("QoS does not match: {}", mismatch);
     }
   }
-  return status_;
+  log_refused();
+  look_whether_blocked(now);
+  const bool blocked = status_.state() == msg::STATE_ACTIVE && unused_since_ != 0 &&
+                       unused_last_ - unused_since_ >= longest_blocked &&
+                       now - unused_last_ < longest_blocked;
+  if (!blocked) return status_;
+  msg::ServiceStatus failed = status_;
+  failed.state(msg::STATE_FAILED);
+  failed.detail("nothing that comes can be used: it came before, or is refused; see its inputs");
+  return failed;
 }
 
 }  // namespace quoin::runtime

@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <idl/Status.h>
+#include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "core/statistics/quantile_histogram.hpp"
 #include "services/deployment/deployment.hpp"
@@ -78,10 +80,12 @@ class ServiceRecord {
   void add_input(const std::string& port, const std::string& topic);
   void add_output(const std::string& topic);
 
-  /// A message came by that input port. What an `each` port received and missed counts for the
-  /// service.
+  /// A message came by that input port, which has lost so many so far. What an `each` port received
+  /// and missed counts for the service.
   void count_received(std::size_t input, bool each, std::uint64_t upstream_lost,
                       std::uint64_t link_lost);
+  /// A message of that port is not used, for that reason: one of a few.
+  void count_refused(std::size_t input, const std::string& reason);
   void count_duplicate(std::size_t input);
   /// A result was made without a message of that port.
   void count_unjoined(std::size_t input);
@@ -98,7 +102,8 @@ class ServiceRecord {
   /// empty function takes the callback back: when this returns, it no longer runs.
   void on_change(std::function<void()> callback);
 
-  /// All of it as it is now, but for the memory of the process.
+  /// All of it as it is now, but for the memory of the process. When for seconds nothing that came
+  /// could be used, the service is reported as failed until something can.
   [[nodiscard]] msg::ServiceStatus snapshot();
 
  private:
@@ -112,6 +117,20 @@ class ServiceRecord {
   std::uint64_t rate_published_ = 0;
   std::int64_t rate_since_ = 0;
   std::function<void(msg::ServiceStatus&)> endpoint_report_;
+  std::vector<std::map<std::string, std::uint64_t>> refused_;  // by input and reason
+
+  std::map<std::string, std::uint64_t> logged_refused_;  // by port and reason
+  void log_refused();
+
+  // Whether what comes can be used.
+  void look_whether_blocked(std::int64_t now);
+  std::uint64_t used_ = 0;
+  std::uint64_t unused_ = 0;
+  std::int64_t unused_since_ = 0;  // [ns since the Unix epoch] nothing was; 0 when something was
+  std::int64_t unused_last_ = 0;   // likewise, when the last came that was not
 };
+
+/// Adds to the counts of a port.
+void add_refused(msg::InputStatus& input, const std::string& reason, std::uint64_t count);
 
 }  // namespace quoin::runtime

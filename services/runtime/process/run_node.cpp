@@ -53,6 +53,7 @@ class NodeThread {
     // from its end to its sources, and the first scan finds everybody listening.
     if (service_.wait_for_readers(node_.outputs(), node_.succession())) work();
     for (const Node::OutputPart& part : node_.outputs()) {
+      service_.pulse.wait_until(Clock::now() + longest_wait_for_acknowledgments);
       if (!part.output->wait_for_acknowledgments(longest_wait_for_acknowledgments)) {
         spdlog::warn("not all readers have acknowledged the last results");
       }
@@ -168,7 +169,7 @@ class NodeThread {
     const bool active = wait_set_.wait(timeout);
     if (!active && service_.config.strength) node_.assert_liveliness();
     bool any = false;
-    while (node_.step()) any = true;
+    while (!service_.stop.requested() && node_.step()) any = true;
     // What has no room stays with DDS, which goes on to say that there is something.
     if (active && !any && node_.full()) {
       (void)service_.stop.wait_until(Clock::now() + pause_when_full);

@@ -136,6 +136,10 @@ using Clock = std::chrono::steady_clock;
 
 // From SIGTERM to the end of the last service; whoever supervises the process kills it sooner.
 constexpr std::chrono::seconds longest_end{20};
+// That a service which is to stop may be late with a sign of life: it works on something that takes
+// for ever, such as a file without an end.
+constexpr std::chrono::milliseconds longest_silence{1500};
+constexpr std::chrono::milliseconds look_period{100};
 
 /// Runs services in threads of their own and ends them in the order of the deployment.
 class Runner {
@@ -176,6 +180,7 @@ class Runner {
     int level = 0;
     std::thread thread;
     // Under the mutex.
+    Clock::time_point asked_to_stop = Clock::time_point::max();
     bool ended = false;
     bool finished = false;  // has no more to do, which counts for those who read it
     int exit_code = exit_ok;
@@ -213,23 +218,35 @@ class Runner {
     while (true) {
       const std::vector<Entry*> to_stop = next_to_stop();
       if (std::ranges::all_of(entries_, &Entry::ended)) return;
+      for (Entry* entry : to_stop) {
+        entry->asked_to_stop = std::min(entry->asked_to_stop, Clock::now());
+      }
       lock.unlock();
       for (Entry* entry : to_stop) entry->service->stop.request();
       lock.lock();
-      if (signal_.requested() && give_up_ == Clock::time_point::max()) {
-        give_up_ = Clock::now() + longest_end;
-      }
-      if (!changed_.wait_until(lock, give_up_, [this] { return something_happened_; })) abandon();
+      const bool ending = signal_.requested();
+      if (ending && give_up_ == Clock::time_point::max()) give_up_ = Clock::now() + longest_end;
+      if (ending && (Clock::now() >= give_up_ || one_hangs())) abandon();
+      changed_.wait_until(lock, ending ? Clock::now() + look_period : Clock::time_point::max(),
+                          [this] { return something_happened_; });
       something_happened_ = false;
     }
+  }
+
+  [[nodiscard]] bool one_hangs() const {
+    const auto now = Clock::now();
+    return std::ranges::any_of(entries_, [&](const auto& entry) {
+      return !entry->ended && now - longest_silence > entry->asked_to_stop &&
+             !entry->service->pulse.alive(now, longest_silence);
+    });
   }
 
   /// Ends the process with services that cannot be ended.
   [[noreturn]] void abandon() const {
     for (const auto& entry : entries_) {
       if (entry->ended) continue;
-      spdlog::error("service '{}' has not ended within {} s; leaving it",
-                    label(entry->service->config), longest_end.count());
+      spdlog::error("service '{}' does not end; leaving it as it is",
+                    label(entry->service->config));
     }
     std::_Exit(exit_failure);
   }
@@ -275,6 +292,8 @@ class Runner {
 
 int run(const Options& options, const std::vector<Component>& components) {
   StopSignal signal;
+  // Nothing is there yet that has an end of its own, and to open an input may take for ever.
+  signal.on_request([] { std::_Exit(exit_ok); });
   KindList kinds{{}, false};
   for (const Component& component : components) kinds.kinds.push_back(component.kind);
   const Deployment deployment =
@@ -308,6 +327,7 @@ Registration::Registration(Component component) { registry().push_back(std::move
 const std::vector<Component>& registered_components() { return registry(); }
 
 int run_process(int argc, char** argv, const std::vector<Component>& components) {
+  report_uncaught_exceptions();
   const bool one_kind = components.size() == 1;
   CLI::App app{(one_kind ? "Quoin service of kind " + components.front().kind->name
                          : "Quoin services in one process") +

@@ -6,6 +6,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "services/runtime/dds/process_writers.hpp"
+
 namespace quoin::runtime {
 
 namespace {
@@ -101,7 +103,8 @@ std::vector<Node::OutputPart> make_outputs(Service& service, const KindInfo& kin
     const OutputConfig* const found = service.config.output(kind.outputs[i].type);
     if (found == nullptr) continue;
     const OutputConfig& output = *found;
-    const TopicQos qos = output_qos(service.config, output);
+    TopicQos qos = output_qos(service.config, output);
+    qos.user_data = writer_announcement(service.record.incarnation());
     std::shared_ptr<LocalTopic> neighbours;
     if (!service.config.process.empty() && !service.config.strength) {
       neighbours = service.process.topics.topic(output.topic);

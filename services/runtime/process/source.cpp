@@ -120,13 +120,14 @@ std::optional<Positions> wait_for_begin(Service& service, const Outputs& outputs
 
 /// What has been written must reach the readers before the writer goes. They may just be getting to
 /// know it when a short source is finished, which nobody wants to end at a certain time.
-bool all_is_acknowledged(const Service& service, const Outputs& outputs) {
+bool all_is_acknowledged(Service& service, const Outputs& outputs) {
   using std::chrono::steady_clock;
   constexpr std::chrono::milliseconds slice{100};
   constexpr std::chrono::seconds longest_wait_when_finished{10};
   const auto begin = steady_clock::now();
   for (const Node::OutputPart& part : outputs) {
     while (!part.output->wait_for_acknowledgments(slice)) {
+      service.pulse.beat();
       const auto limit =
           service.stop.requested() ? longest_wait_for_acknowledgments : longest_wait_when_finished;
       if (steady_clock::now() >= begin + limit) return false;

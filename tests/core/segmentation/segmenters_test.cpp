@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/fitting/orthogonal.hpp"
+#include "tests/core/hostile_scans.hpp"
 #include "tests/core/segmentation/segmenter_scans.hpp"
 #include "tests/core/wall_points.hpp"
 
@@ -258,6 +259,22 @@ TEST_P(EverySegmenter, DropsShortSegments) {
   Segmenter segmenter = make();
   EXPECT_TRUE(run(segmenter, exact_wall_points({0.0, 1.0}, -0.04, 0.04, 20)).empty());  // 8 cm
   EXPECT_TRUE(run(segmenter, exact_wall_points({0.0, 1.0}, -0.2, 0.2, 5)).empty());     // 5 points
+}
+
+// With work that grows with the square of the points each of these takes minutes.
+TEST_P(EverySegmenter, EndsWithTheLargestScanWhateverItShows) {
+  constexpr std::size_t count = 100'000;
+  Segmenter segmenter = make();
+  for (const std::string_view shape : hostile_shapes) {
+    const Points points = hostile_scan(shape, count);
+    std::size_t end = 0;
+    for (const Segment& segment : run(segmenter, points, {0.01, 0.0, 0.0})) {
+      EXPECT_GE(segment.begin, end) << shape;
+      EXPECT_GT(segment.end, segment.begin) << shape;
+      end = segment.end;
+    }
+    EXPECT_LE(end, points.size()) << shape;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EverySegmenter, testing::ValuesIn(segmenter_names()),

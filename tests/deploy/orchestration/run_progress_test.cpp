@@ -104,6 +104,15 @@ TEST_F(RunFigures, AFailureThatWasReportedStands) {
   EXPECT_EQ(report().state, "failed");
 }
 
+TEST_F(RunFigures, AnOrderlyEndIsOneEvenIfItWasNotReported) {
+  processes_.phases["front"] = {ProcessPhase::finished, processes_.id(key_), 0};
+  EXPECT_EQ(report().state, "finished");
+  hear(msg::STATE_ACTIVE);
+  EXPECT_EQ(report().state, "finished");
+  hear(msg::STATE_STOPPED);
+  EXPECT_EQ(report().state, "stopped");
+}
+
 TEST_F(RunFigures, ARemovedServiceIsCalledSo) {
   hear(msg::STATE_ACTIVE);
   record_.confirm(deployment({}));

@@ -81,7 +81,9 @@ class Recorder {
     T message;
     while (reader_.take(message)) {
       accounting_.receive(message.header());
-      if (!accounting_.last_was_duplicate()) messages_.push_back(message);
+      if (accounting_.verdict() == runtime::ScanAccounting::Verdict::received) {
+        messages_.push_back(message);
+      }
     }
     return messages_.size();
   }

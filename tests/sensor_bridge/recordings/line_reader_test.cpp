@@ -37,6 +37,8 @@ TEST(LineReader, SplitsAtEitherLineEnd) {
   EXPECT_THAT(all_lines(folder.write("b", "one\ntwo")), ElementsAre("one", "two"));
   EXPECT_THAT(all_lines(folder.write("c", "one\ntwo\r")), ElementsAre("one", "two"));
   EXPECT_THAT(all_lines(folder.write("d", "")), ElementsAre());
+  EXPECT_THAT(all_lines(folder.write("f", "one\n\rtwo\n\r\n\rthree")),
+              ElementsAre("one", "two", "", "three"));
   EXPECT_THAT(all_lines(folder.write("e",
                                      "\xEF\xBB\xBF"
                                      "one\n")),

@@ -22,6 +22,12 @@ TEST(Messages, SensorModelGoesThereAndBack) {
   EXPECT_EQ(back.flatness_stddev, 0.003);
 }
 
+TEST(Messages, ASensorHasTheNoiseOfItsWireAtLeast) {
+  const SensorModel model = sensor_model(msg::SensorModel());
+  EXPECT_GT(model.range_stddev_per_metre, 0.0);
+  EXPECT_LT(model.range_stddev_per_metre, 1e-7);
+}
+
 TEST(Messages, SegmentsWithRangesOutsideThePointsAreInvalid) {
   msg::Segments message;
   message.bearings().resize(10);

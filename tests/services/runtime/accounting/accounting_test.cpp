@@ -238,7 +238,7 @@ TEST(ScanAccounting, AStandbyThatTakesOverAnswersForTheGapAndNoMore) {
   EXPECT_EQ(accounting.received(), 3U);
   // What the standby made of the same scan comes late.
   accounting.receive(by_instance(105, 2, 91));
-  EXPECT_TRUE(accounting.last_was_duplicate());
+  EXPECT_EQ(accounting.verdict(), ScanAccounting::Verdict::duplicate);
   EXPECT_EQ(accounting.duplicates(), 1U);
 }
 
@@ -288,7 +288,7 @@ TEST(ScanAccounting, ALateInstanceRepeatsNothingOfAnOldAndANewSource) {
   EXPECT_EQ(accounting.lost(), 2U) << "the last two of the old source";
   for (const msg::Header& header : late) {
     EXPECT_THAT(accounting.receive(header), IsEmpty());
-    EXPECT_TRUE(accounting.last_was_duplicate());
+    EXPECT_EQ(accounting.verdict(), ScanAccounting::Verdict::duplicate);
   }
   EXPECT_THAT(accounting.receive(scan(started)), IsEmpty());
   EXPECT_EQ(accounting.received(), 16U);
@@ -326,7 +326,7 @@ TEST(ScanAccounting, ALateMessageDoesNotLetItsSuccessorsCountTwice) {
     }
     EXPECT_THAT(accounting.receive(scan(1, 101)), IsEmpty());
     const bool may_be_of_another_clock = second_start > 60'000'000'000;
-    EXPECT_EQ(accounting.last_was_duplicate(), !may_be_of_another_clock);
+    EXPECT_EQ(accounting.verdict() == ScanAccounting::Verdict::duplicate, !may_be_of_another_clock);
     accounting.receive(scan(second_start, 23));
     EXPECT_EQ(accounting.lost(), 3U);
   }
@@ -339,7 +339,7 @@ TEST(ScanAccounting, WhatIsOlderThanTheFirstSourceThatWasHeardIsOfNone) {
   header.trace()[0].published(3000);
   accounting.receive(header);
   accounting.receive(by_instance(100, 1, 4));  // published at 1100
-  EXPECT_TRUE(accounting.last_was_duplicate());
+  EXPECT_EQ(accounting.verdict(), ScanAccounting::Verdict::duplicate);
   EXPECT_EQ(accounting.sources().size(), 1U);
 }
 
