@@ -46,23 +46,29 @@ struct Quantity {
   std::string_view si;
   std::string_view name;   ///< with its article
   std::string_view units;  ///< as an error text lists them
-  std::array<UnitSuffix, 4> suffixes;
+  std::array<UnitSuffix, 5> suffixes;
 };
 
 constexpr std::array<Quantity, 7> quantities{{
-    {"m", "a length", "m, cm or mm", {{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}}}},
+    {"m", "a length", "m, cm or mm", {{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {}}}},
     {"rad",
      "an angle",
      "rad, mrad or deg",
-     {{{"rad", 1.0}, {"mrad", 1e-3}, {"deg", radians_per_degree}, {}}}},
-    {"s", "a time", "s, ms, us or min", {{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}}}},
-    {"Hz", "a frequency", "Hz or kHz", {{{"Hz", 1.0}, {"kHz", 1e3}, {}, {}}}},
-    {"m/m", "a share", "%, mm/m or m/m", {{{"m/m", 1.0}, {"%", 1e-2}, {"mm/m", 1e-3}, {}}}},
-    {"m/s", "a speed", "m/s or mm/s", {{{"m/s", 1.0}, {"mm/s", 1e-3}, {}, {}}}},
+     {{{"rad", 1.0}, {"mrad", 1e-3}, {"deg", radians_per_degree}, {}, {}}}},
+    {"s",
+     "a time",
+     "s, ms, us, min or h",
+     {{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}, {"h", 3600.0}}}},
+    {"Hz", "a frequency", "Hz or kHz", {{{"Hz", 1.0}, {"kHz", 1e3}, {}, {}, {}}}},
+    {"m/m", "a share", "%, mm/m or m/m", {{{"m/m", 1.0}, {"%", 1e-2}, {"mm/m", 1e-3}, {}, {}}}},
+    {"m/s",
+     "a speed",
+     "m/s, cm/s, mm/s or km/h",
+     {{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}, {"km/h", 1.0 / 3.6}, {}}}},
     {"rad/s",
      "an angular speed",
      "rad/s or deg/s",
-     {{{"rad/s", 1.0}, {"deg/s", radians_per_degree}, {}, {}}}},
+     {{{"rad/s", 1.0}, {"deg/s", radians_per_degree}, {}, {}, {}}}},
 }};
 
 std::string_view trimmed(std::string_view text) {

@@ -169,7 +169,7 @@ Command add_apply(CLI::App& app) {
   line->add_flag("--dry-run", options->dry_run, "Print the plan, change nothing");
   line->add_option("--wait", options->wait, "How long new processes may take to be ready [s]")
       ->capture_default_str()
-      ->check(more_than_zero());
+      ->transform(a_time());
   line->add_flag("--json", options->json, "The outcome as a JSON object");
   return {line, [options] { return run(*options); }};
 }

@@ -265,8 +265,8 @@ Command add_calibrate(CLI::App& app) {
   line->add_option("service", options->service,
                    "Source of a running deployment; else its only source");
   line->add_option("--duration", options->duration,
-                   "Seconds of scans to use; else 30 of a service, all of a recording")
-      ->check(more_than_zero());
+                   "Time of scans to use; else 30 s of a service, all of a recording")
+      ->transform(a_time());
   line->add_option("--distance", options->distance,
                    "True distance [m] from the sensor square to a wall: shows the bias of ranges")
       ->check(more_than_zero());

@@ -12,6 +12,10 @@
 
 namespace quoin::deploy {
 
+/// Check for options that last: a time that is more than 0, in seconds or as "500ms", "5m", "1 h".
+/// The option gets seconds.
+[[nodiscard]] CLI::Validator a_time();
+
 /// A subcommand: its command line, and what to do once that has been parsed. Returns the exit code.
 struct Command {
   CLI::App* line;
@@ -25,6 +29,9 @@ struct Command {
   };
   return {check, "> 0"};
 }
+
+/// "quoin 0.1.0 (GNU 12.2.0, Release)"
+[[nodiscard]] std::string version_text();
 
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_apply(CLI::App& app);
@@ -47,6 +54,8 @@ struct Command {
 [[nodiscard]] Command add_discovery(CLI::App& app);
 [[nodiscard]] Command add_doctor(CLI::App& app);
 [[nodiscard]] Command add_keys(CLI::App& app);
+[[nodiscard]] Command add_schema(CLI::App& app);
+[[nodiscard]] Command add_completion(CLI::App& app);
 [[nodiscard]] Command add_version(CLI::App& app);
 [[nodiscard]] Command add_view(CLI::App& app);
 

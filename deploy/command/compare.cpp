@@ -262,8 +262,7 @@ Command add_compare(CLI::App& app) {
       ->delimiter(',');
   line->add_option("--reference", options->reference,
                    "The one that the others are compared with; else the first");
-  line->add_option("--duration", options->duration, "End after this time [s]")
-      ->check(more_than_zero());
+  line->add_option("--duration", options->duration, "End after this time [s]")->transform(a_time());
   line->add_option("--scans", options->scans, "End after this many scans")->check(more_than_zero());
   line->add_option("--max-distance", options->gate.largest_distance,
                    "Corners farther apart than this are not the same [m]")

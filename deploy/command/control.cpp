@@ -114,7 +114,7 @@ void add_options(CLI::App& line, ControlOptions& options, bool settings_required
   add_network_options(line, options.network, file);
   line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
       ->capture_default_str()
-      ->check(more_than_zero());
+      ->transform(a_time());
   line.add_flag("--drop-state", options.drop_state,
                 "Even when the new method cannot go on with what the present one has learned");
   line.add_flag("--json", options.json, "The answer as a JSON object");

@@ -149,7 +149,7 @@ Command add_doctor(CLI::App& app) {
   const CLI::Option* name_space = line->get_option("--namespace");
   line->add_option("--wait", options->wait, "How long to listen to the services [s]")
       ->capture_default_str()
-      ->check(more_than_zero());
+      ->transform(a_time());
   line->add_flag("--fix", options->fix,
                  "Remove stale shared-memory files of this user; nothing else is changed");
   line->add_flag("--json", options->json, "As a JSON object");

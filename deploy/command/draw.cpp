@@ -158,7 +158,7 @@ Command add_draw(CLI::App& app) {
                    "Number of the scan, from 0; else the first that is complete");
   line->add_flag("--run", options->run, "Start the deployment for the picture and stop it again");
   line->add_option("--wait", options->wait, "Give up when nothing arrives for this time [s]")
-      ->check(more_than_zero())
+      ->transform(a_time())
       ->capture_default_str();
   line->add_option("--ellipse-scale", options->drawing.ellipse_scale,
                    "Draw ellipses enlarged this many times; 0 chooses what can be seen")

@@ -12,6 +12,7 @@
 #include "deploy/evaluation/methods/description.hpp"
 #include "deploy/evaluation/methods/measured_figures.hpp"
 #include "deploy/evaluation/methods/methods_page.hpp"
+#include "deploy/evaluation/methods/schema.hpp"
 #include "deploy/kinds/kinds.hpp"
 
 namespace quoin::deploy {
@@ -91,6 +92,15 @@ Command add_methods(CLI::App& app) {
                    "With the figures of this report.json of quoin evaluate")
       ->needs(markdown);
   return {line, [options] { return run(*options); }};
+}
+
+Command add_schema(CLI::App& app) {
+  CLI::App* line = app.add_subcommand(
+      "schema", "Print the JSON Schema of the deployment file, with which editors complete it");
+  return {line, [] {
+            std::cout << deployment_schema(kinds()).dump(2) << '\n';
+            return std::cout.flush() ? exit_ok : exit_failure;
+          }};
 }
 
 }  // namespace quoin::deploy

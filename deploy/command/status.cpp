@@ -239,7 +239,7 @@ Command add_status(CLI::App& app) {
   const CLI::Option* name_space = line->get_option("--namespace");
   line->add_option("--wait", options->wait, "How long to listen [s]")
       ->capture_default_str()
-      ->check(more_than_zero());
+      ->transform(a_time());
   line->add_flag("--json", options->json, "As a JSON object");
   return {line, [=] { return run(*options, file->count() + name_space->count() > 0); }};
 }

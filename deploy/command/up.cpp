@@ -52,7 +52,7 @@ Command add_up(CLI::App& app) {
                    "Start the share of this host; else of the one called like this machine");
   line->add_option("--duration", options->run.duration,
                    "Stop after this time [s], counted from when all are active")
-      ->check(more_than_zero());
+      ->transform(a_time());
   line->add_flag("--json", options->json,
                  "Print the final figures as a JSON object; progress goes to standard error");
   line->add_flag("--watch", options->run.watch,
