@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/parameters/parameter.hpp"
 #include "core/text/printable.hpp"
 #include "deploy/command/commands.hpp"
 #include "services/deployment/deployment.hpp"
@@ -17,29 +15,6 @@ namespace {
 
 using namespace quoin;
 using namespace quoin::deploy;
-
-/// What is wrong with the first word of the command line; "" when it may name a command.
-std::string unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  const std::string word = argv[1];
-  std::vector<std::string> names{"help"};
-  for (const CLI::App* line : app.get_subcommands({})) names.push_back(line->get_name());
-  if (std::ranges::find(names, word) != names.end()) return "";
-  const std::string near = nearest_name(word, names);
-  return "unknown command '" + printable(word) + "'" +
-         (near.empty() ? "" : "; did you mean '" + near + "'?") + " (quoin --help lists them)";
-}
-
-/// `quoin help [COMMAND]` as `quoin [COMMAND] --help`.
-std::vector<std::string> arguments_of(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments[0] == "help") {
-    arguments.erase(arguments.begin());
-    arguments.emplace_back("--help");
-  }
-  std::ranges::reverse(arguments);  // as CLI11 takes them
-  return arguments;
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Quoin: lines and corners with trustworthy covariances from 2D LiDAR scans"};

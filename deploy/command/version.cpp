@@ -13,25 +13,6 @@ std::string version_text() {
   return "quoin " QUOIN_VERSION " (" QUOIN_COMPILER ", " QUOIN_BUILD_TYPE ")";
 }
 
-CLI::Validator a_time() {
-  const auto to_seconds = [](std::string& text) -> std::string {
-    ParameterInfo info;
-    info.unit = "s";
-    // Nobody means metres.
-    std::string written = text;
-    if (written.ends_with('m')) written += "in";
-    try {
-      const double seconds = detail::parse_real(info, written);
-      if (!(seconds > 0.0)) return "'" + text + "' is not more than 0";
-      text = std::to_string(seconds);
-    } catch (const ParameterError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  return {to_seconds, "TIME"};
-}
-
 Command add_version(CLI::App& app) {
   CLI::App* line = app.add_subcommand("version", "Tell the version and how this program was built");
   const auto json = std::make_shared<bool>(false);
