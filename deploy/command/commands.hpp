@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -34,10 +33,9 @@ struct Command {
 /// "quoin 0.1.0 (GNU 12.2.0, Release)"
 [[nodiscard]] std::string version_text();
 
-/// What is wrong with the first word of the command line; "" when it may name a command.
-[[nodiscard]] std::string unknown_command(const CLI::App& app, int argc, char** argv);
-/// As CLI11 takes them; `quoin help [COMMAND]` is `quoin [COMMAND] --help`.
-[[nodiscard]] std::vector<std::string> arguments_of(int argc, char** argv);
+/// Parses the command line; `quoin help [COMMAND]` is `quoin [COMMAND] --help`. Throws
+/// CLI::ParseError, and std::out_of_range for an unknown command, with the one that was meant.
+void parse(CLI::App& app, int argc, char** argv);
 
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_apply(CLI::App& app);

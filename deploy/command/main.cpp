@@ -3,7 +3,6 @@
 #include <iostream>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "core/text/printable.hpp"
@@ -20,7 +19,6 @@ int run(int argc, char** argv) {
   CLI::App app{"Quoin: lines and corners with trustworthy covariances from 2D LiDAR scans"};
   app.name("quoin");
   app.require_subcommand(1);
-  app.set_version_flag("--version", version_text());
   app.footer(
       "Exit codes: 0 ok, 1 failure, 2 wrong usage or configuration, 3 input of a source unusable, "
       "4 scans that do not show what calibrate wants to know");
@@ -33,11 +31,7 @@ int run(int argc, char** argv) {
       add_schema(app),   add_completion(app), add_version(app), add_view(app),
       add_explain(app)};
   try {
-    if (const std::string error = unknown_command(app, argc, argv); !error.empty()) {
-      std::cerr << error << '\n';
-      return exit_configuration;
-    }
-    app.parse(arguments_of(argc, argv));
+    parse(app, argc, argv);
     for (const Command& command : commands) {
       if (command.line->parsed()) return command.run();
     }
