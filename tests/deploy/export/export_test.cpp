@@ -66,7 +66,7 @@ TEST(SystemdText, KeepsWordsWhole) {
   EXPECT_EQ(unit_program("/opt/my $quoin/100%"), "\"/opt/my $quoin/100%%\"");
   EXPECT_THROW((void)unit_program("/opt/\"q\""), std::invalid_argument);
   EXPECT_THROW((void)unit_program("/opt/a\nb"), std::invalid_argument);
-  EXPECT_EQ(unit_comment("a\nb\\"), "a?b\\ ");
+  EXPECT_EQ(unit_comment("a\nb\\"), "a\\x0Ab\\ ");
 }
 
 TEST(ExportPlan, ReadersComeBeforeWhatTheyRead) {

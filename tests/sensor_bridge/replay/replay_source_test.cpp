@@ -66,7 +66,7 @@ TEST(ReplaySource, PublishesEveryScanAndReturns) {
   EXPECT_TRUE(scan.time_offsets().empty() && scan.qualities().empty());
   EXPECT_EQ(source.scans[1].ranges()[0], -INFINITY);
   EXPECT_TRUE(std::isnan(source.scans[1].ranges()[1]));
-  EXPECT_EQ(source.deadlines[1] - source.deadlines[0], std::chrono::milliseconds(500));
+  EXPECT_EQ(source.deadlines[2] - source.deadlines[1], std::chrono::milliseconds(500));
   EXPECT_EQ(source.memory[0], source.memory[1]);
   EXPECT_THAT(source.warnings, ElementsAre());
 }

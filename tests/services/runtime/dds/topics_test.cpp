@@ -77,6 +77,10 @@ TEST(Topics, ScansThatWaitForTheirReaderTakeNoMoreMemoryThanTheyNeed) {
   ASSERT_TRUE(writer.wait_for_readers(1, 10s));
   msg::Corners corners;
   corners.corners().resize(10);
+  for (msg::Corner& corner : corners.corners()) {
+    corner.covariance_xx(1e-6);
+    corner.covariance_yy(1e-6);
+  }
   ASSERT_TRUE(writer.write(corners));
   ASSERT_TRUE(writer.wait_for_acknowledgments(10s));
   const std::size_t before = tests::heap_in_use();
