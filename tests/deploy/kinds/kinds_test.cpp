@@ -24,9 +24,9 @@ TEST(Kinds, AreListedSourcesFirst) {
   std::vector<std::string> names;
   for (const KindInfo* kind : deploy::kinds().kinds) names.push_back(kind->name);
   EXPECT_THAT(names, ElementsAre("simulated", "replay", "rplidar", "rplidar_emulator", "ros2_scan",
-                                 "deskewing", "segmentation", "line_fitting", "corner_estimation",
-                                 "circle_fitting", "mapping", "localization", "viewer", "recorder",
-                                 "external"));
+                                 "ros2_odometry", "deskewing", "segmentation", "line_fitting",
+                                 "corner_estimation", "circle_fitting", "mapping", "localization",
+                                 "viewer", "recorder", "ros2_output", "external"));
 }
 
 TEST(Kinds, FormAChainFromScansToCorners) {
@@ -67,7 +67,8 @@ TEST(Kinds, HavePortsThatFit) {
     if (kind->reads() && per_input) {
       EXPECT_EQ(each, 1U) << kind->name;
     }
-    if (kind->is_source()) {
+    if (kind->is_source() && kind->output("scan") != nullptr) {
+      EXPECT_EQ(kind->outputs.front().type, "scan") << kind->name;
       EXPECT_EQ(kind->outputs.front().rate, Rate::per_input) << kind->name;
     }
     EXPECT_EQ(kind->program.empty(), kind == &external_kind()) << kind->name;
