@@ -42,11 +42,10 @@ std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const ParticipantConfig&
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   // What is larger DDS divides, and repeats a part that was lost. IP would have to repeat all, and
   // on links that lose the kernel's memory for incomplete datagrams is soon full, which lets none
-  // arrive for half a minute. With security handshakes are too large, and are not divided. Nor by
-  // multicast, where programs of others are met, such as ROS 2: Fast DDS receives no larger
-  // messages than it sends, and theirs are.
-  if (!config.network.interfaces.empty() && !config.security &&
-      config.network.discovery != Discovery::multicast) {
+  // arrive for half a minute. With security handshakes are too large, and are not divided. Nor
+  // where programs of others write, such as ROS 2: Fast DDS receives no larger messages than it
+  // sends, and theirs are.
+  if (!config.network.interfaces.empty() && !config.security && !config.strangers) {
     udp->maxMessageSize = one_packet;
   }
   udp->interfaceWhiteList = addresses;

@@ -73,6 +73,16 @@ void answer_new_participants(const std::stop_token& stop, const KnownEndpoints& 
 
 }  // namespace
 
+namespace {
+
+/// Sources that read topics of other programs.
+bool is_of_strangers(const ServiceConfig& service) {
+  return service.kind == "external" || service.kind == "ros2_scan" ||
+         service.kind == "ros2_odometry";
+}
+
+}  // namespace
+
 ParticipantConfig participant_config(const Deployment& deployment, const std::string& name,
                                      std::string_view identity) {
   const std::string keys = identity.empty() ? name : std::string(identity);
@@ -80,6 +90,7 @@ ParticipantConfig participant_config(const Deployment& deployment, const std::st
   return {.domain = deployment.domain,
           .name = deployment.name_space + "/" + name,
           .network = deployment.network,
+          .strangers = std::ranges::any_of(deployment.services, is_of_strangers),
           .security = deployment.security,
           .identity = keys};
 }

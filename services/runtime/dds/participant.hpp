@@ -19,6 +19,8 @@ struct ParticipantConfig {
   NetworkConfig network = {};
   /// It is this one of the network's discovery servers.
   std::optional<std::size_t> server = std::nullopt;
+  /// Programs write for it that are none of this project, in messages of any size.
+  bool strangers = false;
   std::optional<SecurityConfig> security = {};
   std::string identity = {};  ///< whose keys it has, with security
   /// Topics that it only looks at. Writers that start later can wait for it before their first

@@ -29,6 +29,8 @@ runtime::Method make(const std::string& method, const ParameterSettings& setting
                 out.covariance_mode("count");
                 out.corners().resize(1);
                 out.corners().front().first_line(*count);
+                out.corners().front().covariance_xx(1e-4);
+                out.corners().front().covariance_yy(1e-4);
                 work.publish<msg::Corners>();
               },
           .state_form = form,
