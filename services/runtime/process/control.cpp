@@ -19,7 +19,7 @@ constexpr int most_accepted_a_second = 400;  // more than anybody can ask one af
 constexpr int most_refusals_a_second = 50;
 constexpr std::size_t longest_text = 4096;  // a path is the longest that a request may carry
 constexpr std::size_t most_parameters = 64;
-constexpr std::size_t most_positions = 64;
+constexpr std::size_t most_positions = 4096;  // an observer has one for each type of each service
 constexpr std::size_t largest_state = 64U << 20U;  // [byte]
 
 bool oversized(const msg::ControlRequest& request) {
