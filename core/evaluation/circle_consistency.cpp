@@ -15,7 +15,7 @@
 namespace quoin {
 namespace {
 
-constexpr std::size_t batch_count = 20;  // enough to know a spread to a sixth of itself
+constexpr std::size_t spread_batches = 20;  // enough to know a spread to a sixth of itself
 
 /// Of an error and of its bound; the ratio of their roots is wanted.
 struct SquareSums {
@@ -31,11 +31,11 @@ struct SquareSums {
 
 struct RmseOverBound {
   SquareSums all;
-  std::array<SquareSums, batch_count> batches;
+  std::array<SquareSums, spread_batches> batches;
 
   void add(std::size_t trial, double squared_error, double variance) {
     all.add(squared_error, variance);
-    batches[trial % batch_count].add(squared_error, variance);
+    batches[trial % spread_batches].add(squared_error, variance);
   }
   [[nodiscard]] Interval interval() const {
     if (!(all.bound > 0.0)) return {};

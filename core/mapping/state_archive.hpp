@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -125,7 +126,7 @@ class StateReader {
         std::memcpy(&value, bytes_.data(), sizeof(T));
       }
       if constexpr (std::is_floating_point_v<T>) {
-        if (!(value - value == 0)) throw std::invalid_argument("the state has no finite number");
+        if (!std::isfinite(value)) throw std::invalid_argument("the state has no finite number");
       }
       bytes_ = bytes_.subspan(sizeof(T));
     } else if constexpr (requires { StateFields<T>::transfer(*this, value); }) {

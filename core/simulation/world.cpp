@@ -15,7 +15,7 @@ constexpr double same_point = 1e-3;     // [m] as exactly as files of worlds are
 constexpr double exact = 1e-9;          // [m]
 constexpr double smallest_sine = 1e-6;  // of the angle between walls that are not parallel
 
-Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction) {
+Pose2 pose_between(const Pose2& from, const Pose2& to, double fraction) {
   const double turn = normalized_angle(to.theta - from.theta);
   return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y),
           normalized_angle(from.theta + fraction * turn)};
@@ -82,7 +82,7 @@ Pose2 World::pose_at(double distance) const {
   if (along > length) along = 2.0 * length - along;  // on the way back
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const double step = distance_between(path[i], path[i + 1]);
-    if (along <= step && step > 0.0) return interpolate(path[i], path[i + 1], along / step);
+    if (along <= step && step > 0.0) return pose_between(path[i], path[i + 1], along / step);
     along -= step;
   }
   return path.back();

@@ -9,7 +9,7 @@ namespace quoin::sensor_bridge::rplidar {
 namespace {
 
 /// As many bytes tell formats apart: three frames of the longest one.
-constexpr std::size_t telling_bytes = 3 * largest_frame_bytes;
+constexpr std::size_t bytes_of_the_format = 3 * largest_frame_bytes;
 /// The last frame is cut off, and some may be damaged.
 constexpr double share_of_right_format = 0.6;
 /// [s] in which a sample period is measured before there are revolutions; it is refined later.
@@ -55,7 +55,7 @@ void ScanStream::assemble() {
 void ScanStream::take(std::span<const std::uint8_t> bytes, TimePoint now,
                       const OnRevolution& on_revolution) {
   bytes_ += bytes.size();
-  if (first_bytes_.size() < telling_bytes) look_at_format(bytes);
+  if (first_bytes_.size() < bytes_of_the_format) look_at_format(bytes);
   while (!other_format_ && decoder_.next(bytes, block_)) {
     if (!assembler_) {
       measure_period(block_, now);
@@ -74,10 +74,10 @@ std::optional<double> ScanStream::impossible_rotation() const {
 }
 
 void ScanStream::look_at_format(std::span<const std::uint8_t> bytes) {
-  const std::size_t count = std::min(bytes.size(), telling_bytes - first_bytes_.size());
+  const std::size_t count = std::min(bytes.size(), bytes_of_the_format - first_bytes_.size());
   first_bytes_.insert(first_bytes_.end(), bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(count));
-  if (first_bytes_.size() < telling_bytes) return;
+  if (first_bytes_.size() < bytes_of_the_format) return;
   if (share_in_frames(mode_.format, first_bytes_) > share_of_right_format) return;
   const std::optional<SampleFormat> format = format_of(first_bytes_, asked_);
   if (format && *format != mode_.format) other_format_ = format;

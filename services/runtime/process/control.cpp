@@ -17,19 +17,22 @@ namespace {
 constexpr std::size_t most_requests = 16;
 constexpr int most_accepted_a_second = 400;  // more than anybody can ask one after the other
 constexpr int most_refusals_a_second = 50;
-constexpr std::size_t longest_text = 4096;  // a path is the longest that a request may carry
+constexpr std::size_t longest_request_text =
+    4096;  // a path is the longest that a request may carry
 constexpr std::size_t most_parameters = 64;
 constexpr std::size_t most_positions = 4096;  // an observer has one for each type of each service
 constexpr std::size_t largest_state = 64U << 20U;  // [byte]
 
 bool oversized(const msg::ControlRequest& request) {
-  return request.requester().size() > longest_text || request.method().size() > longest_text ||
-         request.file().size() > longest_text || request.parameters().size() > most_parameters ||
+  return request.requester().size() > longest_request_text ||
+         request.method().size() > longest_request_text ||
+         request.file().size() > longest_request_text ||
+         request.parameters().size() > most_parameters ||
          request.positions().size() > most_positions || request.state().size() > largest_state ||
          std::any_of(request.parameters().begin(), request.parameters().end(),
                      [](const msg::ParameterSetting& setting) {
-                       return setting.name().size() > longest_text ||
-                              setting.value().size() > longest_text;
+                       return setting.name().size() > longest_request_text ||
+                              setting.value().size() > longest_request_text;
                      });
 }
 
@@ -153,7 +156,8 @@ void ControlServer::refuse(const ControlTarget& target, const msg::ControlReques
   }
   if (refusals_ == 1) spdlog::warn("control requests refused: {}", why);
   msg::ControlReply reply = reply_to(request);
-  if (reply.requester().size() > longest_text) reply.requester().resize(longest_text);
+  if (reply.requester().size() > longest_request_text)
+    reply.requester().resize(longest_request_text);
   reply.accepted(false);
   reply.detail(why);
   answer(reply);
