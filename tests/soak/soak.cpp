@@ -146,13 +146,15 @@ struct Options {
   bool verbose = false;
   bool kinds = false;
   bool composed = false;
+  bool hostile = false;
 };
 
 ordered_json run(const Options& options, Verdict& verdict) {
   const auto shared_memory = tests::shared_memory_files();
-  const soak::Scenario scenario = options.kinds      ? soak::test_kinds()
-                                  : options.composed ? soak::composed_stages()
-                                                     : soak::shipped_kinds();
+  soak::Scenario scenario = options.kinds      ? soak::test_kinds()
+                            : options.composed ? soak::composed_stages()
+                                               : soak::shipped_kinds();
+  if (!options.hostile) scenario.attacked.clear();
   const tests::TestDeployment deployment(scenario.compositions.front(), "", scenario.tool);
   tests::Process up = deployment.quoin({"up", "FILE", "--json"});
   soak::Memory memory;
@@ -232,6 +234,8 @@ int main(int argc, char** argv) {
   app.add_flag("--kinds", options.kinds, "With the kinds of tests/kinds, beside shipped ones");
   app.add_flag("--composed", options.composed,
                "With the stages of side_by_side.yaml in one process, or several");
+  app.add_flag("--hostile", options.hostile,
+               "With a hostile neighbour beside it (not with --kinds or --composed)");
   app.add_flag("--verbose", options.verbose, "Print the log of the deployment");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { interrupted = 1; });
