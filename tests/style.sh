@@ -20,10 +20,10 @@ case ${1-} in
   format) sources | xargs clang-format-14 --dry-run --Werror ;;
   tidy)
     cmake --preset tidy >/dev/null
-    # What is generated: the messages, and the IDL texts.
-    cmake --build build/tidy -j "$(nproc)" --target quoin_idl quoin_ros2_idl quoin_topic_types quoin_foxglove >/dev/null
+    # What is generated: the messages, the IDL texts, the page.
+    cmake --build build/tidy -j "$(nproc)" --target quoin_idl quoin_ros2_idl quoin_topic_types quoin_foxglove services/viewer/page_files.cpp >/dev/null
     # Names of one file shadow those of another only because both are read at once.
-    run-clang-tidy-14 -quiet -extra-arg=-Wno-shadow -p build/tidy -j "$(nproc)" '^(?!.*/idl/|.*idl_files|.*/generated/|.*descriptions.cpp).*$' 2>/dev/null |
+    run-clang-tidy-14 -quiet -extra-arg=-Wno-shadow -p build/tidy -j "$(nproc)" '^(?!.*/idl/|.*idl_files|.*/generated/|.*descriptions.cpp|.*page_files.cpp).*$' 2>/dev/null |
       { grep -vE '^$|^clang-tidy-14 |warnings generated|^Suppressed|^Use -header-filter' || true; }
     # The exit status is that of run-clang-tidy: pipefail.
     ;;

@@ -11,9 +11,17 @@
 #include <tuple>
 #include <type_traits>
 
+#include <zlib.h>
+
 #include "sensor_bridge/message_files/mcap_records.hpp"
 
 namespace quoin::sensor_bridge::mcap {
+
+/// CRC-32 of zlib; `crc` is that of the bytes before.
+inline std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
 
 static_assert(std::endian::native == std::endian::little, "MCAP is little-endian");
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include <zlib.h>
-
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/message_files/compression.hpp"
 #include "sensor_bridge/message_files/mcap_codec.hpp"
@@ -19,11 +17,6 @@ constexpr std::uint64_t largest_record = std::uint64_t{64} << 20U;  // [byte]
 constexpr std::size_t piece = std::size_t{1} << 20U;                // [byte]
 constexpr const char* recover_hint =
     "'quoin recording recover' makes a whole file of what is before";
-
-std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
-  return static_cast<std::uint32_t>(
-      ::crc32_z(crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-}
 
 std::string hexadecimal(std::uint8_t op) {
   constexpr const char* digits = "0123456789abcdef";

@@ -11,18 +11,11 @@
 #include <unistd.h>
 #include <utility>
 
-#include <zlib.h>
-
 #include "sensor_bridge/message_files/mcap_codec.hpp"
 
 namespace quoin::sensor_bridge::mcap {
 
 namespace {
-
-std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
-  return static_cast<std::uint32_t>(
-      ::crc32_z(crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-}
 
 bool is_there(const std::filesystem::path& path) {
   std::error_code ignored;

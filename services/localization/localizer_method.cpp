@@ -281,8 +281,8 @@ void LocalizerNode::report(runtime::Work& work, std::size_t lines) {
   reported_ = now;
   double length = 0.0;
   for (const MapLine& line : map_) length += line.length();
-  std::string text = std::to_string(map_.size()) + " walls, " +
-                     std::to_string(static_cast<long>(length + 0.5)) + " m";
+  std::string text =
+      std::to_string(map_.size()) + " walls, " + std::to_string(std::lround(length)) + " m";
   if (unpublished_ > 0) {
     text += "; " + std::to_string(unpublished_) + " walls beyond the " +
             std::to_string(topics::most_walls) + " that a topic holds are not published";

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds flush_period{500};
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecorderParameters& parameters,
-                   std::vector<RecordedTopic> topics, RunFacts facts)
+                   const std::vector<RecordedTopic>& topics, RunFacts facts)
     : recording_(path, parameters, topics, std::move(facts)) {
   for (const RecordedTopic& topic : topics)
     accounts_.push_back({topic.topic, runtime::ScanAccounting(), 0, 0});

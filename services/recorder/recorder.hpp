@@ -40,7 +40,7 @@ class Recorder {
 
   /// As Recording.
   Recorder(const std::filesystem::path& path, const RecorderParameters& parameters,
-           std::vector<RecordedTopic> topics, RunFacts facts);
+           const std::vector<RecordedTopic>& topics, RunFacts facts);
   /// Finishes, as far as that was not done.
   ~Recorder();
   Recorder(const Recorder&) = delete;

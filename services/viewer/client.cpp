@@ -131,7 +131,7 @@ void Client::make_room(std::uint32_t channel, std::size_t size) {
   }
 }
 
-void Client::erase(std::deque<Queued>::iterator queued) {
+void Client::erase(const std::deque<Queued>::iterator& queued) {
   queued_bytes_ -= queued->frame.size();
   ++unreported_[queued->channel];
   ++dropped_;

@@ -76,7 +76,7 @@ class Client {
   void handle(const Unsubscribe& request);
   void control(std::string text, bool is_text = true);
   void make_room(std::uint32_t channel, std::size_t size);
-  void erase(std::deque<Queued>::iterator queued);
+  void erase(const std::deque<Queued>::iterator& queued);
   void report_drops();
 
   const ClientLimits limits_;

@@ -23,14 +23,18 @@ using quoin::fuzz::require;
 using Bytes = std::span<const std::uint8_t>;
 
 void parse_payload(Bytes payload) {
+  // Devices may answer with more than is known of.
+  const auto begins_with = [&](Bytes known) {
+    return known.size() <= payload.size() && std::ranges::equal(known, payload.first(known.size()));
+  };
   if (const auto info = parse_info(payload)) {
-    require(std::ranges::equal(encode(*info), payload), "device info is written as it was read");
+    require(begins_with(encode(*info)), "device info is written as it was read");
     require(serial_number_text(*info).size() == 32, "a serial number has 32 digits");
     require(!firmware_text(*info).empty() && !model_text(*info).empty(), "names are not empty");
     require(traits_of(*info).usual_baud_rate >= 115200, "each model has a baud rate");
   }
   if (const auto health = parse_health(payload)) {
-    require(std::ranges::equal(encode(*health), payload), "health is written as it was read");
+    require(begins_with(encode(*health)), "health is written as it was read");
   }
   if (const auto times = parse_sample_times(payload)) {
     require(std::ranges::equal(encode(*times), payload), "sample times are written as read");

@@ -10,7 +10,7 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-constexpr auto circle_q16 = static_cast<std::int64_t>(full_circle_q16);
+constexpr auto turn_q16 = static_cast<std::int64_t>(full_circle_q16);
 /// Of the samples in a revolution, while a motor changes its speed.
 constexpr double largest_mismatch = 1.5;
 /// A mark is at zero, but for the corrections of single angles.
@@ -95,13 +95,13 @@ bool RevolutionAssembler::is_cut_before(const SampleBlock& block, std::size_t in
   const std::int64_t turned = forward ? clockwise_q16(last, to) : turned_q16(last, to);
   travel_q16_ += turned;
   // Nearer to the last cut it is that one again: a correction, or a mark just before zero.
-  const bool due = !started_ || travel_q16_ >= circle_q16 / 2;
+  const bool due = !started_ || travel_q16_ >= turn_q16 / 2;
   const bool marked =
       index == block.turn_begin &&
       (angle <= largest_mark_angle_q16 || angle >= full_circle_q16 - largest_mark_angle_q16);
   if (marked && due) return true;
   if (unmarked_ > 0) return due && ++unmarked_ > latest_mark;
-  const bool passed_zero = turned > 0 && last + turned >= circle_q16;
+  const bool passed_zero = turned > 0 && last + turned >= turn_q16;
   if (!passed_zero || !due) return false;
   if (!has_marks_ || over_gap) return true;
   unmarked_ = 1;
