@@ -106,7 +106,8 @@ TEST(MessageText, AnotherVersionOfATypeShowsItsValues) {
 TEST(MessageText, ControlCharactersDoNotReachTheTerminal) {
   Json message{{"header", header}};
   message["header"]["frame"] = "\x1b[2J\n";
-  EXPECT_EQ(to_text("quoin::msg::New", message), "front #42 stamp 1.500000 \\x1B[2J\\x0A +1.25 ms:");
+  EXPECT_EQ(to_text("quoin::msg::New", message),
+            "front #42 stamp 1.500000 \\x1B[2J\\x0A +1.25 ms:");
 }
 
 }  // namespace
