@@ -3,13 +3,11 @@
 #include "deploy/export/output_file.hpp"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
-#include <sys/stat.h>
-#include <unistd.h>
+
+#include "services/files/atomic_file.hpp"
 
 namespace quoin::deploy {
 
@@ -23,34 +21,19 @@ bool may_replace(const std::filesystem::path& file) {
 }
 
 void write_whole(const std::filesystem::path& file, const std::string& text) {
-  const auto fail = [&](const char* what) {
-    throw std::runtime_error(file.string() + ": " + what + ": " + std::strerror(errno));
-  };
+  int error = 0;
   const auto kind = std::filesystem::status(file).type();
   if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::fifo) {
     std::ofstream stream(file, std::ios::binary);
     stream << text;
     stream.close();
-    if (!stream) fail("cannot be written");
-    return;
+    if (stream) return;
+    error = errno;
+  } else {
+    error = write_atomically(file, text, 0644);
+    if (error == 0) return;
   }
-  std::string temporary = file.string() + ".XXXXXX";
-  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) fail("cannot be written");
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    written += static_cast<std::size_t>(count);
-  }
-  const bool whole = written == text.size() && ::fchmod(descriptor, 0644) == 0;
-  const bool closed = ::close(descriptor) == 0;
-  if (whole && closed && ::rename(temporary.c_str(), file.c_str()) == 0) return;
-  const int error = errno;
-  ::unlink(temporary.c_str());
-  errno = error;
-  fail("cannot be written");
+  throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(error));
 }
 
 }  // namespace quoin::deploy

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <stdexcept>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "services/files/atomic_file.hpp"
 #include "services/keys/certificate.hpp"
 #include "services/keys/documents.hpp"
 
@@ -25,18 +25,6 @@ std::runtime_error file_error(const std::filesystem::path& file, int error) {
   return std::runtime_error(file.string() + ": " + std::strerror(error));
 }
 
-/// Returns 0 or the error.
-int write_all(int descriptor, const std::string& text, mode_t mode) {
-  if (::fchmod(descriptor, mode) != 0) return errno;  // whatever the umask is
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
-    if (count < 0 && errno != EINTR) return errno;
-    if (count > 0) written += static_cast<std::size_t>(count);
-  }
-  return ::fsync(descriptor) == 0 ? 0 : errno;
-}
-
 }  // namespace
 
 void make_private_folder(const std::filesystem::path& folder) {
@@ -48,17 +36,8 @@ void make_private_folder(const std::filesystem::path& folder) {
 void write_file(const std::filesystem::path& file, const std::string& text, mode_t mode,
                 bool replace) {
   make_private_folder(file.parent_path());
-  std::string unfinished = file.string() + ".XXXXXX";
-  const int descriptor = ::mkostemp(unfinished.data(), O_CLOEXEC);
-  if (descriptor < 0) throw file_error(file, errno);
-  int error = write_all(descriptor, text, mode);
-  ::close(descriptor);
-  if (error == 0 && ::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, file.c_str(),
-                                replace ? 0 : RENAME_NOREPLACE) != 0) {
-    error = errno;
-  }
+  const int error = write_atomically(file, text, mode, replace);
   if (error == 0) return;
-  ::unlink(unfinished.c_str());
   if (error == EEXIST) {
     throw std::runtime_error(file.string() + " is there already; --force replaces it");
   }

@@ -6,18 +6,15 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <optional>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <zlib.h>
 
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
+#include "services/files/atomic_file.hpp"
 
 namespace quoin::maps {
 
@@ -118,34 +115,8 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content) {
-  const auto fail = [&] {
-    throw MapError(file.string() + ": cannot be written: " + std::strerror(errno));
-  };
-  std::string temporary = file.string() + ".XXXXXX";
-  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) fail();
-  std::size_t written = 0;
-  while (written < content.size()) {
-    const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    written += static_cast<std::size_t>(count);
-  }
-  // On the disk before it takes the place of the one before: a power cut leaves one of the two.
-  const bool whole =
-      written == content.size() && ::fchmod(descriptor, 0644) == 0 && ::fsync(descriptor) == 0;
-  const int error = errno;
-  const bool closed = ::close(descriptor) == 0;
-  if (whole && closed && ::rename(temporary.c_str(), file.c_str()) == 0) return;
-  if (whole && closed) {
-    const int renaming = errno;
-    ::unlink(temporary.c_str());
-    errno = renaming;
-  } else {
-    ::unlink(temporary.c_str());
-    errno = error;
-  }
-  fail();
+  const int error = write_atomically(file, content, 0644);
+  if (error != 0) throw MapError(file.string() + ": cannot be written: " + std::strerror(error));
 }
 
 std::string map_text(const SavedMap& map) {

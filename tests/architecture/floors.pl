@@ -24,6 +24,7 @@ my @floors = (
     [ 'sensor_bridge/message_files/',    2 ],
     [ 'sensor_bridge/simulated/world_file', 2 ],
     [ 'services/topics/',                3 ],
+    [ 'services/files/',                 1 ],
     [ 'services/maps/',                  3 ],
     [ 'sensor_bridge/recordings/',       4 ],
     [ 'services/deployment/',            4 ],
