@@ -3,11 +3,9 @@
 //
 // Films the picture of a running page as an animated PNG.
 //   node animate.mjs URL FILE [FRAMES]
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { writeFileSync } from 'node:fs';
 import zlib from 'node:zlib';
-import { chromium } from 'playwright-core';
+import { startChromium } from './chromium.mjs';
 
 const [url, file, count = '14'] = process.argv.slice(2);
 const pause = 300; // [ms] between frames
@@ -69,12 +67,7 @@ function animated(frames) {
   return Buffer.concat(parts);
 }
 
-const profile = mkdtempSync(join(tmpdir(), 'quoin-animate-'));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath: '/usr/bin/chromium',
-  headless: true,
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync'],
+const { context, close } = await startChromium({
   viewport: { width: 980, height: 430 },
   colorScheme: 'light',
 });
@@ -91,5 +84,4 @@ for (let i = 0; i < Number(count); ++i) {
   await page.waitForTimeout(Math.max(0, pause - (Date.now() - began)));
 }
 writeFileSync(file, animated(frames));
-await context.close();
-rmSync(profile, { recursive: true, force: true });
+await close();

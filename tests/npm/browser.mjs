@@ -3,18 +3,12 @@
 //
 // Debian's Chromium looks at the page of a running viewer. Prints one JSON object of what it saw; the test judges.
 //   node browser.mjs URL FOLDER      pictures go into FOLDER
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { chromium } from 'playwright-core';
+import { startChromium } from './chromium.mjs';
 
 const [url, folder] = process.argv.slice(2);
-const profile = mkdtempSync(join(tmpdir(), 'quoin-browser-'));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath: '/usr/bin/chromium',
-  headless: true,
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync'],
+const { context, close } = await startChromium({
   viewport: { width: 1280, height: 800 },
 });
 const seen = { console: [], requests: [] };
@@ -123,5 +117,4 @@ await page.waitForTimeout(400);
 await page.screenshot({ path: join(folder, 'narrow_light.png') });
 
 console.log(JSON.stringify(seen));
-await context.close();
-rmSync(profile, { recursive: true, force: true });
+await close();
