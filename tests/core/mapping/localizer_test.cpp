@@ -93,15 +93,21 @@ TEST_P(AllLocalizers, RejectADamagedStateAndKeepTheirOwn) {
   EXPECT_EQ(localizer.save(), before);
 }
 
-TEST_P(AllLocalizers, LeaveAGivenMapAsItIs) {
-  Drive drive("domestic_room");
+/// The walls as an architect draws them.
+std::vector<MapLine> plan_of(const World& world) {
   std::vector<MapLine> plan;
-  for (const Wall& wall : drive.world().walls) {
+  for (const Wall& wall : world.walls) {
     MapLine line;
     line.start = wall.start;
     line.end = wall.end;
     plan.push_back(line);
   }
+  return plan;
+}
+
+TEST_P(AllLocalizers, LeaveAGivenMapAsItIs) {
+  Drive drive("domestic_room");
+  const std::vector<MapLine> plan = plan_of(drive.world());
   Localizer localizer = Localizers::make<Localizer>(GetParam(), {});
   localizer.use_map(plan, PoseEstimate{drive.truth(), 1e-4 * Eigen::Matrix3d::Identity()});
   std::vector<Localization> results;
@@ -120,13 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, AllLocalizers, testing::Values("landmarks", "a
 
 TEST(Landmarks, FindThemselvesInAGivenMap) {
   Drive drive("environment_b");
-  std::vector<MapLine> plan;
-  for (const Wall& wall : drive.world().walls) {
-    MapLine line;
-    line.start = wall.start;
-    line.end = wall.end;
-    plan.push_back(line);
-  }
+  const std::vector<MapLine> plan = plan_of(drive.world());
   Localizer localizer = Localizers::make<Localizer>("landmarks", {});
   localizer.use_map(plan, std::nullopt);
   std::vector<Localization> results;

@@ -15,33 +15,20 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-/// A dense capsule of 40 equal distances [mm], which take themselves out of the checksum.
-Bytes capsule(unsigned start_q6, unsigned distance, bool first = false) {
-  const unsigned start = start_q6 | (first ? 0x8000 : 0);
-  const unsigned sum = (start & 0xFF) ^ start >> 8;
-  Bytes bytes{static_cast<std::uint8_t>(0xA0 | (sum & 0xF)),
-              static_cast<std::uint8_t>(0x50 | sum >> 4), static_cast<std::uint8_t>(start),
-              static_cast<std::uint8_t>(start >> 8)};
-  for (int k = 0; k < 40; ++k) {
-    bytes.push_back(static_cast<std::uint8_t>(distance));
-    bytes.push_back(static_cast<std::uint8_t>(distance >> 8));
-  }
-  return bytes;
-}
-
 double degrees(const DecodedSample& sample) { return sample.angle_q16 / 65536.0; }
 
 /// An S1 turns by 1002/64 degrees in each capsule.
 constexpr unsigned step_q6 = 1002;
 
 Bytes capsule_number(unsigned number) {
-  return capsule(number * step_q6 % (360 * 64), 4000 + number, number == 0);
+  return dense_capsule(number * step_q6 % (360 * 64), 4000 + number, number == 0);
 }
 
 TEST(LostFrames, TheCapsuleBeforeALostOneEndsWhereItDid) {
   // 0, 15.66 and 46.95 degrees; the capsule at 31.30 is missing.
-  const DecodedSamples samples = decode(
-      SampleFormat::dense, capsule(0, 4000, true) + capsule(1002, 4001) + capsule(3005, 4003));
+  const DecodedSamples samples =
+      decode(SampleFormat::dense,
+             dense_capsule(0, 4000, true) + dense_capsule(1002, 4001) + dense_capsule(3005, 4003));
   ASSERT_EQ(samples.size(), 80u);
   EXPECT_NEAR(degrees(samples[40]), 15.66, 0.01);
   EXPECT_NEAR(degrees(samples[79]), 30.91, 0.01);  // and not 46.17
@@ -74,7 +61,7 @@ TEST(LostFrames, ACapsuleThatFitsNothingIsDropped) {
   SampleDecoder decoder(SampleFormat::dense);
   Bytes bytes;
   for (unsigned number = 0; number < 6; ++number) bytes = bytes + capsule_number(number);
-  bytes = bytes + capsule(200 * 64, 1234);
+  bytes = bytes + dense_capsule(200 * 64, 1234);
   for (unsigned number = 7; number < 12; ++number) bytes = bytes + capsule_number(number);
   const DecodedSamples samples = decode(decoder, bytes);
   EXPECT_EQ(samples.size(), 10u * 40u);

@@ -14,19 +14,9 @@
 namespace quoin::sensor_bridge::rplidar {
 namespace {
 
-/// A dense capsule whose distances are all the same.
-Bytes dense_capsule(unsigned start_degrees, bool first = false, unsigned distance = 0) {
-  const unsigned start = start_degrees * 64 | (first ? 0x8000 : 0);
-  // An even number of equal distances takes itself out of the checksum.
-  const unsigned sum = (start & 0xFF) ^ start >> 8;
-  Bytes bytes{static_cast<std::uint8_t>(0xA0 | (sum & 0xF)),
-              static_cast<std::uint8_t>(0x50 | sum >> 4), static_cast<std::uint8_t>(start),
-              static_cast<std::uint8_t>(start >> 8)};
-  for (int k = 0; k < 40; ++k) {
-    bytes.push_back(static_cast<std::uint8_t>(distance));
-    bytes.push_back(static_cast<std::uint8_t>(distance >> 8));
-  }
-  return bytes;
+/// The same from a whole number of degrees on.
+Bytes dense_capsule_at(unsigned start_degrees, bool first = false, unsigned distance = 0) {
+  return dense_capsule(start_degrees * 64, distance, first);
 }
 
 TEST(SampleDecoder, TellsTheAgeOfABlock) {
@@ -76,8 +66,8 @@ TEST(SampleDecoder, GivesTheSameSamplesHoweverTheBytesArrive) {
 }
 
 TEST(SampleDecoder, CountsTheSameWhenAFalseBeginComesAlone) {
-  const Bytes good = dense_capsule(0, true, 100) + dense_capsule(4, false, 200);
-  const Bytes bytes = good + hex("A0") + dense_capsule(8, false, 300) + dense_capsule(12);
+  const Bytes good = dense_capsule_at(0, true, 100) + dense_capsule_at(4, false, 200);
+  const Bytes bytes = good + hex("A0") + dense_capsule_at(8, false, 300) + dense_capsule_at(12);
   SampleDecoder decoder(SampleFormat::dense);
   std::size_t size = good.size() + 1;
   const DecodedSamples samples = decode(decoder, bytes, [&] { return std::exchange(size, 1000); });
@@ -110,8 +100,8 @@ TEST(SampleDecoder, HandsOutEachNodeWithTheNextOne) {
 TEST(SampleDecoder, StartsAnewWhenTheDeviceDoes) {
   SampleDecoder decoder(SampleFormat::dense);
   const DecodedSamples samples =
-      decode(decoder, dense_capsule(0, true, 100) + dense_capsule(4, false, 200) +
-                          dense_capsule(8, true, 300) + dense_capsule(12, false, 400));
+      decode(decoder, dense_capsule_at(0, true, 100) + dense_capsule_at(4, false, 200) +
+                          dense_capsule_at(8, true, 300) + dense_capsule_at(12, false, 400));
   // The second capsule leads nowhere: its end is not known.
   ASSERT_EQ(samples.size(), 80u);
   EXPECT_EQ(samples[0], (DecodedSample{0, 400, 188, true}));
@@ -121,24 +111,25 @@ TEST(SampleDecoder, StartsAnewWhenTheDeviceDoes) {
 
 TEST(SampleDecoder, TakesNoStepOfMoreThanHalfACircle) {
   SampleDecoder decoder(SampleFormat::dense);
-  EXPECT_EQ(decode(decoder, dense_capsule(0, true) + dense_capsule(180)).size(), 40u);
-  EXPECT_TRUE(decode(decoder, dense_capsule(1)).empty());
+  EXPECT_EQ(decode(decoder, dense_capsule_at(0, true) + dense_capsule_at(180)).size(), 40u);
+  EXPECT_TRUE(decode(decoder, dense_capsule_at(1)).empty());
   EXPECT_EQ(decoder.counts().out_of_line, 1u);
 }
 
 TEST(SampleDecoder, TakesAStandingMotor) {
   const DecodedSamples samples =
-      decode(SampleFormat::dense, dense_capsule(5, true) + dense_capsule(5));
+      decode(SampleFormat::dense, dense_capsule_at(5, true) + dense_capsule_at(5));
   ASSERT_EQ(samples.size(), 40u);
   EXPECT_EQ(samples[39].angle_q16, 5u << 16);
 }
 
 TEST(SampleDecoder, TakesStartAnglesBeyondTheCircle) {
   const DecodedSamples samples =
-      decode(SampleFormat::dense, dense_capsule(365, true) + dense_capsule(9));
+      decode(SampleFormat::dense, dense_capsule_at(365, true) + dense_capsule_at(9));
   ASSERT_EQ(samples.size(), 40u);
   EXPECT_EQ(samples[0].angle_q16, 5u << 16);
-  EXPECT_EQ(decode(SampleFormat::dense, dense_capsule(1, true) + dense_capsule(365)).size(), 40u);
+  EXPECT_EQ(decode(SampleFormat::dense, dense_capsule_at(1, true) + dense_capsule_at(365)).size(),
+            40u);
 }
 
 TEST(SampleDecoder, SmoothsUltraDenseCapsulesOnTheFinestScaleOnly) {
@@ -174,7 +165,7 @@ TEST(SampleDecoder, SmoothsAcrossUltraDenseCapsulesButNotAcrossGaps) {
 // 0x5AA5 mm: each distance looks like the begin of a capsule.
 TEST(SampleDecoder, FindsCapsulesAmongWhatLooksLikeThem) {
   Bytes bytes;
-  for (unsigned k = 0; k < 6; ++k) bytes = bytes + dense_capsule(4 * k, k == 0, 0x5AA5);
+  for (unsigned k = 0; k < 6; ++k) bytes = bytes + dense_capsule_at(4 * k, k == 0, 0x5AA5);
   const DecodedSamples expected = decode(SampleFormat::dense, bytes);
   ASSERT_EQ(expected.size(), 200u);
   for (std::size_t cut = 1; cut < 84; ++cut) {
@@ -189,9 +180,9 @@ TEST(SampleDecoder, FindsCapsulesAmongWhatLooksLikeThem) {
 }
 
 TEST(SampleDecoder, FindsACapsuleThatBeginsInsideADamagedOne) {
-  const Bytes good = dense_capsule(4, false, 200) + dense_capsule(8, false, 300);
+  const Bytes good = dense_capsule_at(4, false, 200) + dense_capsule_at(8, false, 300);
   for (std::size_t kept = 1; kept < 84; ++kept) {
-    Bytes damaged = dense_capsule(0, true, 0x1122);
+    Bytes damaged = dense_capsule_at(0, true, 0x1122);
     damaged.resize(kept);
     SampleDecoder decoder(SampleFormat::dense);
     const DecodedSamples samples = decode(decoder, damaged + good);

@@ -88,4 +88,18 @@ inline Bytes encode(SampleFormat format, std::span<const Sample> samples) {
   return bytes;
 }
 
+/// A dense capsule of 40 equal distances: an even number of these takes itself out of the checksum.
+inline Bytes dense_capsule(unsigned start_q6, unsigned distance, bool first = false) {
+  const unsigned start = start_q6 | (first ? 0x8000 : 0);
+  const unsigned sum = (start & 0xFF) ^ start >> 8;
+  Bytes bytes{static_cast<std::uint8_t>(0xA0 | (sum & 0xF)),
+              static_cast<std::uint8_t>(0x50 | sum >> 4), static_cast<std::uint8_t>(start),
+              static_cast<std::uint8_t>(start >> 8)};
+  for (int k = 0; k < 40; ++k) {
+    bytes.push_back(static_cast<std::uint8_t>(distance));
+    bytes.push_back(static_cast<std::uint8_t>(distance >> 8));
+  }
+  return bytes;
+}
+
 }  // namespace quoin::sensor_bridge::rplidar
