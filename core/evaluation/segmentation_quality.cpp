@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/evaluation/scene.hpp"
-#include "core/fitting/algebraic_fitters.hpp"
+#include "core/fitting/algebraic.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/sensor/scan.hpp"
 #include "core/simulation/scanner.hpp"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/fitting/algebraic_fitters.hpp"
+#include "core/fitting/algebraic.hpp"
 #include "core/fitting/axis_regression.hpp"
 #include "core/fitting/likelihood_fitters.hpp"
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "core/parameters/method_list.hpp"
 
 namespace quoin {

@@ -12,7 +12,7 @@
 
 #include "core/evaluation/corner_matching.hpp"
 #include "core/geometry/corner.hpp"
-#include "core/statistics/quantile_histogram.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "deploy/observation/comparison_figures.hpp"
 
 namespace quoin::deploy {

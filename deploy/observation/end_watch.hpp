@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/quantile_histogram.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "deploy/observation/figures.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/runtime/accounting/accounting.hpp"

@@ -3,15 +3,46 @@
 #include "services/keys/key_directory.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <random>
 #include <stdexcept>
+#include <sys/stat.h>
 
+#include "services/files/atomic_file.hpp"
 #include "services/keys/documents.hpp"
 #include "services/keys/key_files.hpp"
 
 namespace quoin {
 
 namespace {
+
+constexpr mode_t mode_private = 0600;  // for the owner alone
+constexpr mode_t mode_public = 0644;
+
+std::runtime_error file_error(const std::filesystem::path& file, int error) {
+  return std::runtime_error(file.string() + ": " + std::strerror(error));
+}
+
+/// Makes the folder and those above it, for the owner alone, unless they are there.
+void make_private_folder(const std::filesystem::path& folder) {
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  make_private_folder(folder.parent_path());
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) throw file_error(folder, errno);
+}
+
+/// A reader sees all of the old or all of the new. Without `replace` a file that is there is an
+/// error.
+void write_file(const std::filesystem::path& file, const std::string& text, mode_t mode,
+                bool replace) {
+  make_private_folder(file.parent_path());
+  const int error = write_atomically(file, text, mode, replace);
+  if (error == 0) return;
+  if (error == EEXIST) {
+    throw std::runtime_error(file.string() + " is there already; --force replaces it");
+  }
+  throw file_error(file, error);
+}
 
 /// `make` of the file's text; failures name the file.
 template <class Function>

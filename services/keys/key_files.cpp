@@ -8,10 +8,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <stdexcept>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "services/files/atomic_file.hpp"
 #include "services/keys/certificate.hpp"
 #include "services/keys/documents.hpp"
 
@@ -26,23 +24,6 @@ std::runtime_error file_error(const std::filesystem::path& file, int error) {
 }
 
 }  // namespace
-
-void make_private_folder(const std::filesystem::path& folder) {
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  make_private_folder(folder.parent_path());
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) throw file_error(folder, errno);
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text, mode_t mode,
-                bool replace) {
-  make_private_folder(file.parent_path());
-  const int error = write_atomically(file, text, mode, replace);
-  if (error == 0) return;
-  if (error == EEXIST) {
-    throw std::runtime_error(file.string() + " is there already; --force replaces it");
-  }
-  throw file_error(file, error);
-}
 
 std::string read_file(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);

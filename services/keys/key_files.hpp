@@ -6,23 +6,11 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <sys/types.h>
 #include <vector>
 
 #include "services/deployment/deployment.hpp"
 
 namespace quoin {
-
-constexpr mode_t mode_private = 0600;  ///< for the owner alone
-constexpr mode_t mode_public = 0644;
-
-/// Makes the folder and those above it, for the owner alone, unless they are there.
-void make_private_folder(const std::filesystem::path& folder);
-
-/// Writes the file in one step: a reader sees all of the old or all of the new. Without `replace` a
-/// file that is there is an error. Throws std::runtime_error.
-void write_file(const std::filesystem::path& file, const std::string& text, mode_t mode,
-                bool replace);
 
 /// Throws std::runtime_error "FILE: reason". Files of more than a megabyte are refused.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);

@@ -49,14 +49,16 @@ my @floors = (
     [ 'deploy/command/',                 16 ],
 );
 # How many files the main file of a service may reach.
-# The viewer runs all methods to explain what they did.
+# Recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 140,
-    'services/mapping/main.cpp'      => 140,
-    'services/segmentation/main.cpp' => 145,
-    'services/viewer/main.cpp'       => 205,
+    'services/localization/main.cpp' => 132,
+    'services/mapping/main.cpp'      => 132,
+    'services/recorder/main.cpp'     => 122,
+    'services/ros2_output/main.cpp'  => 125,
+    'services/segmentation/main.cpp' => 140,
+    'services/viewer/main.cpp'       => 190,
 );
-my $most_files_of_others = 125;
+my $most_files_of_others = 116;
 
 sub floor_of {
     my ($file) = @_;

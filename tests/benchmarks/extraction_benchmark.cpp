@@ -13,7 +13,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/corners/adjacent.hpp"
-#include "core/fitting/algebraic_fitters.hpp"
+#include "core/fitting/algebraic.hpp"
 #include "core/segmentation/iepf.hpp"
 #include "core/sensor/scan.hpp"
 #include "core/simulation/scanner.hpp"

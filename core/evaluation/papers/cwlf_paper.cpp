@@ -8,7 +8,7 @@
 #include "core/evaluation/fit_timing.hpp"
 #include "core/evaluation/scene.hpp"
 #include "core/fitting/axis_regression.hpp"
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 
 namespace quoin {
 namespace {

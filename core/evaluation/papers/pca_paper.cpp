@@ -6,7 +6,7 @@
 
 #include "core/evaluation/fit_timing.hpp"
 #include "core/fitting/axis_regression.hpp"
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "core/geometry/angle.hpp"
 #include "core/simulation/random.hpp"
 

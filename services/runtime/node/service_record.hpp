@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/statistics/quantile_histogram.hpp"
+#include "core/statistics/order_statistics.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::runtime {

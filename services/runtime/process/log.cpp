@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/runtime/process/log.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -17,9 +17,80 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "services/runtime/process/log_limit.hpp"
+#include "core/text/printable.hpp"
 
 namespace quoin::runtime {
+
+namespace {
+
+constexpr std::uint64_t first_ones = 10;
+constexpr std::chrono::seconds shortest_pause{10};  // doubles with each line, up to
+constexpr std::chrono::hours longest_pause{1};
+constexpr std::chrono::minutes forgotten_after{10};
+
+constexpr double burst = 200.0;         // [line]
+constexpr double lines_a_second = 0.1;  // 8640 a day
+
+constexpr std::size_t most_kinds = 256;
+constexpr std::size_t longest_line = 1000;  // [byte]
+
+std::string without_numbers(std::string_view message) {
+  std::string kind(message.substr(0, longest_line));
+  std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+  return kind;
+}
+
+}  // namespace
+
+LogLimit::Kind& LogLimit::kind_of(std::string_view message, Clock::time_point now) {
+  std::string text = without_numbers(message);
+  if (!kinds_.contains(text) && kinds_.size() >= most_kinds) {
+    kinds_.erase(
+        std::ranges::min_element(kinds_, {}, [](const auto& entry) { return entry.second.last; }));
+  }
+  Kind& kind = kinds_[std::move(text)];
+  if (now - kind.last > forgotten_after && now >= kind.next) kind = {};
+  kind.last = now;
+  return kind;
+}
+
+bool LogLimit::may_write(Clock::time_point now) {
+  if (!allowance_)
+    allowance_ = burst;
+  else {
+    const std::chrono::duration<double> elapsed = now - allowed_at_;
+    allowance_ = std::min(burst, *allowance_ + lines_a_second * elapsed.count());
+  }
+  allowed_at_ = now;
+  if (*allowance_ < 1.0) return false;
+  *allowance_ -= 1.0;
+  return true;
+}
+
+std::optional<std::string> LogLimit::line(std::string_view message) {
+  const Clock::time_point now = now_();
+  Kind& kind = kind_of(message, now);
+  if (kind.written >= first_ones && now < kind.next) {
+    ++kind.left_out;
+    return std::nullopt;
+  }
+  if (!may_write(now)) {
+    ++left_out_;
+    return std::nullopt;
+  }
+  std::string line = printable(message, Lines::one, longest_line);
+  if (kind.left_out > 0) line += " (and " + std::to_string(kind.left_out) + " like it before)";
+  if (left_out_ > 0) line += " (" + std::to_string(left_out_) + " others were too many)";
+  left_out_ = 0;
+  kind.left_out = 0;
+  ++kind.written;
+  if (kind.written >= first_ones) {
+    const auto doublings = std::min<std::uint64_t>(kind.written - first_ones, 20);
+    kind.next = now + std::min<Clock::duration>(shortest_pause * (std::int64_t{1} << doublings),
+                                                longest_pause);
+  }
+  return line;
+}
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/fitting/algebraic_fitters.hpp"
+#include "core/fitting/algebraic.hpp"
 
 namespace quoin {
 namespace {

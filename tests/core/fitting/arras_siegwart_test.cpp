@@ -3,7 +3,7 @@
 #include <random>
 
 #include "core/evaluation/papers/cwlf_paper.hpp"
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/matchers.hpp"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "core/fitting/algebraic_fitters.hpp"
+#include "core/fitting/algebraic.hpp"
 #include "core/geometry/corner.hpp"
 #include "tests/core/fitting/fitting_fixtures.hpp"
 #include "tests/core/fitting/published_equations.hpp"

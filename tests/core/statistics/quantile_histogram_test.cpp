@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/statistics/quantile_histogram.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {

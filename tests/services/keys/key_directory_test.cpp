@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "deploy/kinds/kinds.hpp"
+#include "services/files/atomic_file.hpp"
 #include "services/keys/documents.hpp"
 #include "services/keys/key_files.hpp"
 #include "tests/temporary_folder.hpp"
@@ -178,7 +179,9 @@ TEST_F(KeyDirectory, WhatIsMissingOrOutdatedIsToldWithTheWayOut) {
   EXPECT_THAT(key_problems(deployment_, "front"), ElementsAre(HasSubstr("other topics")));
   deployment_.domain = 7;
   const KeyPair authority = load_authority(keys_);
-  write_file(trust_files(keys_, true).governance, sign_document("<dds/>", authority), 0644, true);
+  ASSERT_EQ(write_atomically(trust_files(keys_, true).governance,
+                             sign_document("<dds/>", authority), 0644),
+            0);
   EXPECT_THAT(key_problems(deployment_, "front"), ElementsAre(HasSubstr("another version")));
   write_governance(keys_, authority);
   EXPECT_THAT(key_problems(deployment_, "front"), IsEmpty());

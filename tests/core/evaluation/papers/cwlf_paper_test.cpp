@@ -7,7 +7,7 @@
 
 #include "core/evaluation/scene.hpp"
 #include "core/fitting/axis_regression.hpp"
-#include "core/fitting/orthogonal_fitters.hpp"
+#include "core/fitting/orthogonal.hpp"
 #include "tests/core/matchers.hpp"
 
 namespace quoin {
