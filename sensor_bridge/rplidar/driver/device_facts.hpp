@@ -37,6 +37,12 @@ struct DeviceFacts {
   MotorControl motor = MotorControl::none;
 };
 
+/// [bit/s] of the serial line behind the device, which a network kit hides: over TCP and UDP it is
+/// the usual one of the model.
+[[nodiscard]] inline double line_rate(const DeviceFacts& facts) {
+  return facts.baud_rate != 0 ? facts.baud_rate : facts.traits.usual_baud_rate;
+}
+
 /// Asks an idle device for everything but its health. Throws as Client does.
 [[nodiscard]] DeviceFacts ask_facts(Client& client, const std::string& endpoint, unsigned baud_rate,
                                     const DeviceInfo& info);

@@ -33,11 +33,6 @@ std::string fixed(double value, const char* format) {
   return text;
 }
 
-/// [bit/s] of the line behind the device, which a network kit hides.
-double line_rate(const DeviceFacts& facts) {
-  return facts.baud_rate != 0 ? facts.baud_rate : facts.traits.usual_baud_rate;
-}
-
 Diagnosis diagnosis_of(Finding finding, const std::string& name) {
   Diagnosis diagnosis{.finding = finding, .text = name + ": ", .advice = {}};
   switch (finding) {

@@ -15,8 +15,16 @@ constexpr double largest_error = 0.06;
 constexpr double longest_bucket = 0.5;  // [s]
 /// [s] of arrivals from which the slope is known better than from the declaration.
 constexpr double measured_after = 0.5;
-/// [s] of arrivals before which they say less of the slope than what was known before.
-constexpr double shortest_span = 0.04;
+/// How far a sample period is from what is known of it before: from the declared one, and from
+/// the measured one behind a gap. Two standard deviations are what devices are known to differ by.
+constexpr double declared_stddev = 0.01;
+constexpr double measured_stddev = 0.001;
+/// [s] by which arrivals are late in the mean, until some have been seen, and how many it counts.
+constexpr double usual_lateness = 1e-3;
+constexpr double usual_reads = 2.0;
+constexpr double most_reads = 256.0;  // over which the mean is taken
+/// [s] Blocks that arrive closer to each other are held up by the same.
+constexpr double one_read = 1e-3;
 /// [s] Less than that may be a late arrival as well.
 constexpr double shortest_gap = 5e-3;
 /// [s] Behind a longer gap the line is drawn anew, with the slope that is known.
@@ -32,7 +40,10 @@ double in_seconds(nanoseconds time) { return std::chrono::duration<double>(time)
 }  // namespace
 
 AcquisitionClock::AcquisitionClock(double sample_period, double delay)
-    : sample_period_(sample_period), delay_(delay) {}
+    : sample_period_(sample_period),
+      delay_(delay),
+      slope_stddev_(declared_stddev * sample_period),
+      mean_lateness_(usual_lateness) {}
 
 TimePoint AcquisitionClock::first_sample(const SampleBlock& block, TimePoint arrival) {
   const TimePoint newest = arrival - in_nanoseconds(delay_);
@@ -77,6 +88,9 @@ nanoseconds AcquisitionClock::span(std::size_t samples) const {
 
 /// Keeps the slope.
 void AcquisitionClock::begin_anew(TimePoint origin) {
+  if (measured_period()) slope_stddev_ = measured_stddev * sample_period_;
+  known_slope_ = slope_;
+  reads_ = 0.0;
   ++last_block_.line;
   origin_ = origin;
   next_index_ = 0.0;
@@ -110,6 +124,7 @@ void AcquisitionClock::count_missing(const SampleBlock& block, double late) {
 }
 
 void AcquisitionClock::note(Arrival arrival) {
+  count_read(arrival);
   const bool opens = !open_;
   if (opens) {
     open_ = true;
@@ -122,6 +137,18 @@ void AcquisitionClock::note(Arrival arrival) {
   }
   draw_line();
   if ((arrival.index - open_begin_) * sample_period_ >= bucket_span_) close_bucket();
+}
+
+/// Before the line is drawn with it.
+void AcquisitionClock::count_read(const Arrival& arrival) {
+  const double time = arrival.lateness + sample_period_ * arrival.index;
+  if (reads_ > 0.0 && time - last_read_ < one_read) return;
+  last_read_ = time;
+  if (reads_ > 0.0) {
+    const double weight = 1.0 / (std::min(reads_, most_reads) + usual_reads);
+    mean_lateness_ += weight * (std::max(0.0, above_line(arrival)) - mean_lateness_);
+  }
+  reads_ += 1.0;
 }
 
 void AcquisitionClock::close_bucket() {
@@ -158,8 +185,10 @@ void AcquisitionClock::close_bucket() {
       std::min(longest_bucket, std::max(2.0 * bucket_span_, span / static_cast<double>(size_)));
 }
 
-/// Of all lines under the arrivals the one that is closest to them in sum: it follows the lower
-/// convex hull where the mean index is.
+/// Lateness is taken as exponentially distributed, and the slope as normally distributed around
+/// what was known before: the most probable line lies under all arrivals. With many of them it is
+/// the one that is closest to them in sum, and follows their lower convex hull where the mean index
+/// is; few pull the slope no farther than their lateness in the mean allows.
 void AcquisitionClock::draw_line() {
   const std::size_t count = size_ + (open_ ? 1 : 0);
   std::array<std::size_t, most_buckets + 1> hull;
@@ -178,17 +207,21 @@ void AcquisitionClock::draw_line() {
     }
     hull[corners++] = k;
   }
-  const double limit = largest_error * sample_period_;
-  for (std::size_t corner = 1; corner < corners; ++corner) {
-    const Arrival& a = buckets_[hull[corner - 1]];
-    const Arrival& b = buckets_[hull[corner]];
-    if (b.index < mean && corner + 1 < corners) continue;
-    const double span = (buckets_[count - 1].index - buckets_[0].index) * sample_period_;
-    if (b.index > a.index && span >= shortest_span) {
-      slope_ = std::clamp((b.lateness - a.lateness) / (b.index - a.index), -limit, limit);
-    }
-    break;
+  // The logarithm of the probability, n (offset + slope * mean) / lateness - (slope - known)^2 / 2
+  // variance, is concave along the hull: it has its maximum at the first of its points, or between
+  // two of them, behind which it falls.
+  const double pull = slope_stddev_ * slope_stddev_ * reads_ / mean_lateness_;
+  double steepest_before = -largest_error * sample_period_;
+  for (std::size_t corner = 0; corner < corners; ++corner) {
+    const Arrival& at = buckets_[hull[corner]];
+    slope_ = std::max(known_slope_ + pull * (mean - at.index), steepest_before);
+    if (corner + 1 == corners) break;
+    const Arrival& next = buckets_[hull[corner + 1]];
+    steepest_before =
+        std::max(steepest_before, (next.lateness - at.lateness) / (next.index - at.index));
+    if (slope_ <= steepest_before) break;
   }
+  slope_ = std::min(slope_, largest_error * sample_period_);
   offset_ = buckets_[hull[0]].lateness - slope_ * buckets_[hull[0]].index;
   for (std::size_t k = 1; k < count; ++k) {
     offset_ = std::min(offset_, buckets_[k].lateness - slope_ * buckets_[k].index);

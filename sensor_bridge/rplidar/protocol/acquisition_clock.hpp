@@ -19,7 +19,8 @@ using TimePoint = std::chrono::steady_clock::time_point;
 /// closest to them. The slope of that line is the true sample period, which may differ by percents
 /// from the declared one; the line is drawn through the earliest arrivals of the last 16 s, as in
 /// Moon, Skelly, Towsley, "Estimation and removal of clock skew from network delay measurements"
-/// (1999). Missing samples are counted on.
+/// (1999). The first arrivals pull it away from the declared period by as much as their lateness
+/// lets them know better. Missing samples are counted on.
 class AcquisitionClock {
  public:
   /// `sample_period` [s] as the device declares it, positive. `delay` [s]: from the acquisition of
@@ -62,6 +63,7 @@ class AcquisitionClock {
   void begin_anew(TimePoint origin);
   void count_missing(const SampleBlock& block, double lateness_at_age);
   void note(Arrival arrival);
+  void count_read(const Arrival& arrival);
   void close_bucket();
   void draw_line();
   [[nodiscard]] double line(double index) const { return offset_ + slope_ * index; }
@@ -82,6 +84,13 @@ class AcquisitionClock {
   // The line: lateness over index.
   double slope_ = 0.0;  // [s] for each sample
   double offset_ = 0.0;
+  // What is known of the slope without the arrivals.
+  double known_slope_ = 0.0;
+  double slope_stddev_;
+
+  double mean_lateness_;    // [s] above the line
+  double reads_ = 0.0;      // on this line, blocks that arrived together as one
+  double last_read_ = 0.0;  // [s]
 
   // The least late arrival of each of the last pieces of time, the open one behind them.
   std::array<Arrival, most_buckets + 1> buckets_{};

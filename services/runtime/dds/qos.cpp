@@ -93,13 +93,6 @@ Qos common_qos(Qos qos, const TopicQos& topic) {
   qos.resource_limits().max_samples_per_instance = samples;
   qos.resource_limits().max_samples = keyed ? max_instances * samples : samples;
   qos.resource_limits().allocated_samples = 1;
-  // Data keeps its memory from scan to scan. What anybody may send must not: a few oversized
-  // requests would leave every place of the history as large as the largest of them. Nor what an
-  // observer holds of a burst, which may be tens of megabytes.
-  qos.endpoint().history_memory_policy =
-      preset == QosPreset::control || preset == QosPreset::observer
-          ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
-          : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.user_data().setValue({topic.user_data.begin(), topic.user_data.end()});
   if (topic.strength) {
     qos.ownership().kind = dds::EXCLUSIVE_OWNERSHIP_QOS;
@@ -124,6 +117,11 @@ Duration_t repeat_delay(QosPreset preset) {
 
 dds::DataWriterQos writer_qos(const TopicQos& topic) {
   dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), topic);
+  // What a service writes keeps its memory from scan to scan. Requests may be of any size.
+  qos.endpoint().history_memory_policy =
+      topic.preset == QosPreset::control
+          ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
+          : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic.strength) qos.ownership_strength().value = static_cast<std::uint32_t>(*topic.strength);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
@@ -135,6 +133,9 @@ dds::DataWriterQos writer_qos(const TopicQos& topic) {
 
 dds::DataReaderQos reader_qos(const TopicQos& topic) {
   dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), topic);
+  // What arrives may come from anybody: were its memory kept, a few oversized messages would leave
+  // every place of the history as large as the largest of them.
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(topic.preset);
   return qos;
 }

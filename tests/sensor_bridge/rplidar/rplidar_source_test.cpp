@@ -45,9 +45,9 @@ TEST(RplidarSource, PublishesRevolutionsWithTrueBearingsAndTheFactsOfTheDevice) 
     // 1 s / 15 / 108 us, two more or less by where zero falls.
     EXPECT_NEAR(static_cast<double>(scan.ranges().size()), 617.3, 2.0);
     EXPECT_FLOAT_EQ(scan.range_max(), 40.0F);
-    // By the arrivals of a moment on a machine that may be busy, within what a clock may be off;
-    // acquisition_clock_test has the accuracy.
-    EXPECT_NEAR(scan.duration(), 1.0 / 15.0, 0.06 / 15.0 + 0.001);
+    // The first arrivals on a machine that may be busy pull it no farther from what the device
+    // declares than devices differ from that; acquisition_clock_test has the accuracy.
+    EXPECT_NEAR(scan.duration(), 1.0 / 15.0, 0.03 / 15.0);
     // Clockwise from the front.
     EXPECT_NEAR(scan.bearings().front(), 0.0, 0.02);
     EXPECT_LT(scan.bearings()[100], 0.0);

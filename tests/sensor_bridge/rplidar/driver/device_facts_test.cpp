@@ -76,6 +76,15 @@ TEST_F(FactsTest, AreWhatTheDeviceSays) {
   EXPECT_EQ(plan_scan(facts, "", 0.0).speed, 600);
 }
 
+TEST_F(FactsTest, ALineIsInsideOfANetworkKitToo) {
+  DeviceFacts facts = ask();
+  EXPECT_EQ(line_rate(facts), 256000.0);
+  facts.baud_rate = 115200;
+  EXPECT_EQ(line_rate(facts), 115200.0);
+  facts.baud_rate = 0;  // over TCP and UDP
+  EXPECT_EQ(line_rate(facts), 256000.0);
+}
+
 TEST_F(FactsTest, ModesHaveANameInAnyCase) {
   EXPECT_EQ(plan_scan(ask(), "sLOW", 12.5).mode.id, 0);
   EXPECT_EQ(plan_scan(ask(), "sLOW", 12.5).speed, 750);

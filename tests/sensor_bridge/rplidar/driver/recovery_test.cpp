@@ -295,6 +295,17 @@ TEST_F(Recovery, LongerAnswersThanKnownAreRead) {
   EXPECT_EQ(model_text(driver_->record().facts->info), "S1M1");
 }
 
+/// Over TCP there is no baud rate to be found.
+TEST_F(RecoveryOverTcp, ADeviceThatAnswersAfterSixTenthsOfASecondIsWaitedFor) {
+  device_.faults = "slow_answers=0.6+2s";
+  plug();
+  settings_.time_outs = {};  // as they are where nobody sets them
+  driver_.emplace(settings_);
+  ASSERT_TRUE(driver_->wait_for_revolutions(2));
+  EXPECT_THAT(driver_->record().problems, IsEmpty());
+  EXPECT_EQ(model_text(driver_->record().facts->info), "S1M1");
+}
+
 TEST_F(Recovery, AHealthWarningIsToldOfOnce) {
   device_.faults = "health_warning=16";
   plug();
