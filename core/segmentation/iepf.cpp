@@ -2,19 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segmentation/iepf.hpp"
 
-#include <bit>
-
 namespace quoin {
-
-namespace {
-
-// Splits may be as uneven as they like while they are not deep, as those of rooms are; then a chord
-// is split in its middle, so that n points take n log n steps whatever is scanned.
-std::size_t deepest_uneven_split(std::size_t points) {
-  return 8 * static_cast<std::size_t>(std::bit_width(points));
-}
-
-}  // namespace
 
 Iepf::Iepf(const Parameters& parameters) : builder_(parameters) {}
 

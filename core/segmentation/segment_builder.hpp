@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -15,6 +16,13 @@
 #include "core/segmentation/trace.hpp"
 
 namespace quoin {
+
+/// Splits of a contour may be as uneven as they like while they are not deep, as those of rooms
+/// are; below this depth a piece is to be split in its middle, so that n points take n log n steps
+/// whatever is scanned.
+[[nodiscard]] inline std::size_t deepest_uneven_split(std::size_t points) {
+  return 8 * static_cast<std::size_t>(std::bit_width(points));
+}
 
 /// What all segmenters share: clusters between break points before the method's own work; merging,
 /// boundaries and selection after it. Keeps its memory from scan to scan.

@@ -47,14 +47,16 @@ std::size_t SplitAndMerge::vertex_of(const PointsView& points, const Segment& pi
 
 void SplitAndMerge::split(const PointsView& points, const Segment& cluster) {
   // The leftmost is on top, so that pieces come out in order.
+  const std::size_t deepest = deepest_uneven_split(cluster.size());
   stack_.clear();
-  stack_.push_back(cluster);
+  stack_.push_back({cluster});
   while (!stack_.empty()) {
-    const Segment piece = stack_.back();
+    const auto [piece, depth] = stack_.back();
     const std::size_t vertex = vertex_of(points, piece);
     if (vertex != piece.begin) {
-      stack_.back() = {vertex, piece.end};
-      stack_.push_back({piece.begin, vertex});
+      const std::size_t cut = depth < deepest ? vertex : piece.begin + piece.size() / 2;
+      stack_.back() = {{cut, piece.end}, depth + 1};
+      stack_.push_back({{piece.begin, cut}, depth + 1});
       continue;
     }
     stack_.pop_back();

@@ -36,9 +36,14 @@ class SplitAndMerge {
   /// Where to split a piece; its begin when it is straight.
   [[nodiscard]] std::size_t vertex_of(const PointsView& points, const Segment& piece) const;
 
+  struct Waiting {
+    Segment piece;
+    std::size_t depth = 0;  // of splits
+  };
+
   SegmentBuilder builder_;
   PrefixMoments moments_;
-  std::vector<Segment> stack_;  // still to be judged
+  std::vector<Waiting> stack_;  // still to be judged
 };
 
 }  // namespace quoin

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -43,11 +42,8 @@ int run(int argc, char** argv) {
   } catch (const std::out_of_range& error) {
     std::cerr << printable(error.what(), Lines::many) << '\n';
     return exit_configuration;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "quoin: out of memory\n";
-    return exit_failure;
   } catch (const std::exception& error) {
-    std::cerr << "quoin: " << printable(error.what(), Lines::many) << '\n';
+    std::cerr << "quoin: " << printable(runtime::failure_text(error), Lines::many) << '\n';
   }
   return exit_failure;
 }

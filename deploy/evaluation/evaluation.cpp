@@ -3,7 +3,6 @@
 #include "deploy/evaluation/evaluation.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
@@ -13,6 +12,7 @@
 
 #include "deploy/evaluation/sections.hpp"
 #include "deploy/observation/table.hpp"
+#include "services/files/atomic_file.hpp"
 
 namespace quoin::deploy {
 
@@ -112,15 +112,10 @@ std::string html_report(const EvaluationSetup& setup, const std::vector<Part>& p
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path temporary = file.string() + ".part";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(file.string() + ": cannot be written");
+  const int error = write_atomically(file, text, 0644);
+  if (error != 0) {
+    throw std::runtime_error(file.string() +
+                             ": cannot be written: " + std::generic_category().message(error));
   }
 }
 

@@ -15,7 +15,10 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr std::size_t most_namespaces = 64;
+/// Of processes that the deployment does not name; those of its services are always heard.
 constexpr std::size_t most_processes = 4096;
+/// For which one writer speaks: as many services as a deployment may have.
+constexpr std::size_t most_of_one_writer = 256;
 }  // namespace
 
 ServiceReport report_of(const msg::ServiceStatus& status) {
@@ -91,6 +94,9 @@ HeartbeatListener::HeartbeatListener(const Deployment& deployment, const std::st
                                      bool all_namespaces)
     : all_namespaces_(all_namespaces),
       participant_(runtime::participant_config(deployment, name, observer_identity)) {
+  for (const ServiceConfig& service : deployment.services) {
+    known_.emplace(deployment.name_space, label(service));
+  }
   if (!all_namespaces) add(deployment.name_space);
 }
 
@@ -110,12 +116,20 @@ void HeartbeatListener::look_for_namespaces() {
   }
 }
 
+/// Whether one process more can be kept, of which `status_` came by this writer.
+bool HeartbeatListener::has_place(const std::string& name_space, std::uint64_t writer) const {
+  const auto others = processes_of_.find(writer);
+  if (others != processes_of_.end() && others->second >= most_of_one_writer) return false;
+  return heard_.size() < most_processes || known_.contains({name_space, status_.service()});
+}
+
 void HeartbeatListener::take(const std::string& name_space, StatusReader& reader) {
   while (reader.take(status_)) {
     const std::int64_t delay = runtime::now_ns() - status_.stamp();
     const std::pair key(name_space, status_.incarnation());
-    if (heard_.size() >= most_processes && !heard_.contains(key)) continue;
+    if (!heard_.contains(key) && !has_place(name_space, reader.last_sample().writer)) continue;
     const auto [entry, first] = heard_.try_emplace(key);
+    if (first) ++processes_of_[reader.last_sample().writer];
     HeardHeartbeats& heard = entry->second;
     if (!first) {
       heard.delay = heard.fresh == 0 ? delay : std::min(heard.delay, delay);

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,7 @@ class HeartbeatListener {
   void look_for_namespaces();
   void add(const std::string& name_space);
   void take(const std::string& name_space, StatusReader& reader);
+  [[nodiscard]] bool has_place(const std::string& name_space, std::uint64_t writer) const;
 
   bool all_namespaces_;
   runtime::Participant participant_;
@@ -72,6 +74,8 @@ class HeartbeatListener {
   std::map<std::string, std::unique_ptr<StatusReader>> readers_;
   msg::ServiceStatus status_;
   Heard heard_;
+  std::set<std::pair<std::string, std::string>> known_;  // namespaces and labels of the deployment
+  std::map<std::uint64_t, std::size_t> processes_of_;    // in heard_, by writer
 };
 
 }  // namespace quoin::deploy

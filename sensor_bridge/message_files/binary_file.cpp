@@ -4,25 +4,21 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
+#include "services/files/regular_file.hpp"
+
 namespace quoin::sensor_bridge {
 
 BinaryFile::BinaryFile(const std::filesystem::path& file) : name_(file.string()) {
-  const auto refuse = [&](const std::string& why) {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    throw ScanFileError("cannot read scan file '" + name_ + "': " + why);
-  };
-  descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0) refuse(std::generic_category().message(errno));
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) refuse(std::generic_category().message(errno));
-  if (!S_ISREG(status.st_mode)) refuse("it is no file");
-  size_ = static_cast<std::uint64_t>(status.st_size);
+  const RegularFile opened = open_regular(file);
+  if (opened.descriptor < 0) {
+    throw ScanFileError("cannot read scan file '" + name_ + "': " + opened.problem);
+  }
+  descriptor_ = opened.descriptor;
+  size_ = opened.size;
 }
 
 BinaryFile::~BinaryFile() {

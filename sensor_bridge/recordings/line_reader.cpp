@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <new>
 #include <system_error>
+#include <unistd.h>
 
 #include <zlib.h>
+
+#include "services/files/regular_file.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -23,16 +27,14 @@ void LineReader::Closer::operator()(void* handle) const { gzclose(file_of(handle
 
 LineReader::LineReader(const std::filesystem::path& file)
     : file_(file.string()), chunk_(chunk_size) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw ScanFileError("cannot read scan file '" + file_ + "': it is a folder");
+  const RegularFile opened = open_regular(file);
+  if (opened.descriptor < 0) {
+    throw ScanFileError("cannot read scan file '" + file_ + "': " + opened.problem);
   }
-  errno = 0;
-  handle_.reset(gzopen(file_.c_str(), "rb"));
+  handle_.reset(gzdopen(opened.descriptor, "rb"));
   if (!handle_) {
-    const int reason = errno == 0 ? ENOMEM : errno;
-    throw ScanFileError("cannot read scan file '" + file_ +
-                        "': " + std::generic_category().message(reason));
+    ::close(opened.descriptor);
+    throw std::bad_alloc();
   }
   gzbuffer(file_of(handle_.get()), chunk_size);
 }
@@ -91,8 +93,8 @@ bool LineReader::fill() {
     case Z_ERRNO:
       fail(line_.size(), "cannot read on: " + std::generic_category().message(errno));
     default:
-      // zlib puts the path before the reason.
-      if (reason.starts_with(file_ + ": ")) reason.remove_prefix(file_.size() + 2);
+      // zlib puts what it takes for the path before the reason: "<fd:3>: ".
+      if (reason.starts_with("<fd:")) reason.remove_prefix(reason.find(": ") + 2);
       fail(line_.size(),
            "the compressed file is damaged here (" + std::string(reason) + "); copy it again");
   }

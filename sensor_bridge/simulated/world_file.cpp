@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <sstream>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,6 +13,7 @@
 #include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
+#include "services/files/regular_file.hpp"
 
 namespace quoin::sensor_bridge {
 namespace {
@@ -162,17 +160,16 @@ class WorldParser {
 };
 
 World read_world(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw WorldError("cannot read world file '" + file.string() + "': " + error.message());
-  if (size > max_file_size) {
+  std::string text;
+  const std::string problem = read_regular(file, max_file_size, text);
+  if (text.size() > max_file_size) {
     throw WorldError("world file '" + file.string() +
                      "' is larger than 16 MiB; is it the right one?");
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!(text << stream.rdbuf())) throw WorldError("cannot read world file '" + file.string() + "'");
-  return parse_world(text.str(), file);
+  if (!problem.empty()) {
+    throw WorldError("cannot read world file '" + file.string() + "': " + problem);
+  }
+  return parse_world(text, file);
 }
 
 }  // namespace

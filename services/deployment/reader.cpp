@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
-#include <fcntl.h>
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 
 #include "core/parameters/parameter.hpp"
 #include "core/text/printable.hpp"
@@ -16,6 +13,7 @@
 #include "services/deployment/service_entries.hpp"
 #include "services/deployment/wiring.hpp"
 #include "services/deployment/yaml_entries.hpp"
+#include "services/files/regular_file.hpp"
 
 namespace quoin {
 
@@ -190,24 +188,10 @@ std::string read_deployment(const std::filesystem::path& file) {
   if (error) fail(file, "cannot be read: " + error.message());
   if (std::filesystem::is_directory(status)) fail(file, "is a directory; name the file in it");
   if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
-  // Some files of /proc are regular and have a reader wait all the same.
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) fail(file, "cannot be opened; check its permissions");
-  // One byte more than allowed distinguishes too large from just fitting, whatever the size of the
-  // file.
-  std::string text(largest_file + 1, '\0');
-  std::size_t size = 0;
-  ssize_t count = 0;
-  while (size < text.size()) {
-    count = ::read(descriptor, text.data() + size, text.size() - size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    size += static_cast<std::size_t>(count);
-  }
-  const int reason = errno;
-  ::close(descriptor);
-  if (count < 0) fail(file, "cannot be read: " + std::generic_category().message(reason));
-  text.resize(size);
+  // Of a file that is too large the parser says so; of what is longer nothing is wanted.
+  std::string text;
+  const std::string problem = read_regular(file, largest_file, text);
+  if (!problem.empty() && text.size() <= largest_file) fail(file, "cannot be read: " + problem);
   return text;
 }
 

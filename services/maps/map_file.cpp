@@ -3,11 +3,9 @@
 #include "services/maps/map_file.hpp"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 
 #include <zlib.h>
@@ -15,6 +13,7 @@
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
 #include "services/files/atomic_file.hpp"
+#include "services/files/regular_file.hpp"
 
 namespace quoin::maps {
 
@@ -100,17 +99,13 @@ std::vector<std::uint8_t> bytes_of(std::string_view digits, const Words& words) 
 }  // namespace
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw MapError(file.string() + ": cannot be read: " + error.message());
-  if (size > largest_file) {
+  std::string text;
+  const std::string problem = read_regular(file, largest_file, text);
+  if (text.size() > largest_file) {
     throw MapError(file.string() + ": is larger than " + std::to_string(largest_file >> 20U) +
                    " MB; it is no map of lines");
   }
-  std::string text(size, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (!stream) throw MapError(file.string() + ": cannot be read: " + std::strerror(errno));
+  if (!problem.empty()) throw MapError(file.string() + ": cannot be read: " + problem);
   return text;
 }
 

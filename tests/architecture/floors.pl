@@ -51,8 +51,8 @@ my @floors = (
 # How many files the main file of a service may reach.
 # Recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 132,
-    'services/mapping/main.cpp'      => 132,
+    'services/localization/main.cpp' => 134,
+    'services/mapping/main.cpp'      => 134,
     'services/recorder/main.cpp'     => 122,
     'services/ros2_output/main.cpp'  => 125,
     'services/segmentation/main.cpp' => 140,

@@ -15,6 +15,7 @@
 #include "services/runtime/dds/endpoints.hpp"
 #include "services/runtime/node/clock.hpp"
 #include "services/topics/header.hpp"
+#include "tests/benchmarks/process_usage.hpp"
 #include "tests/integration/harness/deployment.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -23,6 +24,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 using tests::CornerRecorder;
 using tests::Process;
 using tests::StatusRecorder;
@@ -181,6 +184,8 @@ TEST(BadInput, ASourceThatFindsNoScanForEverEndsAtASignal) {
   Process front = deployment.start("front");
   ASSERT_TRUE(status.wait_for(
       "front", [](const auto& heartbeat) { return heartbeat.state() == msg::STATE_ACTIVE; }));
+  // In the middle of it, and not before it has begun.
+  ASSERT_TRUE(tests::eventually([&] { return benchmarks::processor_time(front.pid()) > 300ms; }));
   front.signal(SIGTERM);
   EXPECT_EQ(front.wait(10s), 1);
   EXPECT_THAT(front.errors(), HasSubstr("service 'front' does not end"));
@@ -205,6 +210,25 @@ TEST(BadInput, AMalformedDeploymentStartsNothing) {
     EXPECT_THAT(quoin.errors(), HasSubstr(file.string() + ":3:25: unknown kind 'lidar'"))
         << arguments[0];
   }
+}
+
+TEST(BadInput, OutOfMemoryEndsWithAMessage) {
+  const TestDeployment deployment(chain);
+  const std::string program = std::filesystem::path(QUOIN_BIN_DIR) / "quoin-segmentation";
+  std::size_t ended = 0;
+  for (const char* limit : {"60000", "70000", "80000", "90000", "100000"}) {  // [KiB]
+    const std::string command = std::string("ulimit -v ") + limit + "; exec " + program +
+                                " --service walls --deployment " + deployment.file().string();
+    Process service("/bin/sh", {"-c", command}, deployment.directory().path());
+    const auto code = service.wait(2s);
+    if (!code) continue;         // enough of it
+    if (*code == 127) continue;  // too little to load it
+    ++ended;
+    EXPECT_EQ(*code, 1) << limit;
+    EXPECT_THAT(service.errors(), Not(IsEmpty())) << limit;
+    EXPECT_THAT(service.errors(), Not(HasSubstr("terminate called"))) << limit;
+  }
+  EXPECT_GT(ended, 0U);
 }
 
 TEST(BadInput, AServiceRefusesAWrongCommandLine) {

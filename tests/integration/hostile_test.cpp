@@ -98,6 +98,15 @@ TEST(HostileNeighbour, IsNamedByStatusAndDoctorWhenItWritesToATopicOfAService) {
   const auto active = [](const msg::ServiceStatus& s) { return s.state() == msg::STATE_ACTIVE; };
   ASSERT_TRUE(status.wait_for("corners", active));
   ASSERT_TRUE(status.wait_for("front", active));
+  // More services than there are places for: those of the deployment are heard all the same.
+  runtime::Writer<msg::ServiceStatus> crowd(
+      participant, status_topic(deployment.deployment().name_space), runtime::QosPreset::state);
+  msg::ServiceStatus ghost = status.latest("front");
+  for (std::uint64_t number = 1; number <= 6000; ++number) {
+    ghost.service("ghost_" + std::to_string(number));
+    ghost.incarnation(number);
+    ASSERT_TRUE(crowd.write(ghost));
+  }
   Process calm = deployment.quoin({"status", "FILE"});
   EXPECT_EQ(calm.wait(20s), 0);
   EXPECT_THAT(calm.output(), Not(HasSubstr("writers")));

@@ -10,7 +10,7 @@ namespace {
 TEST(Excerpt, KeepsMessagesShortAndPrintable) {
   EXPECT_EQ(excerpt("2.x5"), "'2.x5'");
   EXPECT_EQ(excerpt(""), "''");
-  EXPECT_EQ(excerpt(std::string_view("a\0b\x1B[2J\xC3", 8)), "'a?b?[2J?'");
+  EXPECT_EQ(excerpt(std::string_view("a\0b\x1B[2J\xC3", 8)), "'a\\x00b\\x1B[2J\\xC3'");
   EXPECT_EQ(excerpt(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
   EXPECT_EQ(excerpt(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
 }

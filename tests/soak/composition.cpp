@@ -11,6 +11,13 @@ namespace {
 std::vector<std::string> shipped_compositions() {
   const std::string common =
       "  - {name: front, kind: simulated, parameters: {rate_hz: 20}}\n"
+      // A sensor that is never quite well, as long as the device itself is left alone.
+      "  - {name: device, kind: rplidar_emulator, parameters: {link: lidar.tty, spin_up_time: 0.2 "
+      "s,\n"
+      "     faults: \"lost_frames=0.01, repeated_frames=0.01, swapped_frames=0.01, \n"
+      "     dropped_bytes=0.0001, flipped_bits=0.00001\"}}\n"
+      "  - {name: lidar, kind: rplidar, parameters: {serial_port: ./lidar.tty}}\n"
+      "  - {name: lidar_walls, kind: segmentation, input: lidar, method: iepf}\n"
       "  - {name: steady, kind: line_fitting, input: walls, method: wctls, strength: 10}\n"
       "  - {name: steady, kind: line_fitting, input: walls, method: wctls, strength: 5}\n"
       "  - {name: steady_corners, kind: corner_estimation, input: steady}\n"

@@ -31,7 +31,7 @@ struct Scenario {
 
 /// Of the shipped kinds: all compositions have the source, the segmentation, a fitter with a
 /// standby and the corners of `steady`; they differ in fitters beside it, in methods, and in what
-/// `second` reads.
+/// `second` reads. Beside them a LiDAR whose line loses, repeats and damages what it sends.
 [[nodiscard]] Scenario shipped_kinds();
 
 /// With the kinds of tests/kinds: joins, outputs at their own rate, state, an observer. The

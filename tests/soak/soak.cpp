@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-// A deployment under random kills, pauses, swaps, applies, visitors and nonsense. Afterwards every
-// scan must be accounted for, memory must not have grown, and nothing may be left behind.
+// A deployment under random kills, pauses, swaps, applies, visitors, nonsense and the messages of a
+// hostile neighbour. Afterwards every scan must be accounted for, memory must not have grown, and
+// nothing may be left behind.
 
 #include <algorithm>
 #include <csignal>
@@ -146,7 +147,6 @@ struct Options {
   bool verbose = false;
   bool kinds = false;
   bool composed = false;
-  bool hostile = false;
 };
 
 ordered_json run(const Options& options, Verdict& verdict) {
@@ -154,7 +154,6 @@ ordered_json run(const Options& options, Verdict& verdict) {
   soak::Scenario scenario = options.kinds      ? soak::test_kinds()
                             : options.composed ? soak::composed_stages()
                                                : soak::shipped_kinds();
-  if (!options.hostile) scenario.attacked.clear();
   const tests::TestDeployment deployment(scenario.compositions.front(), "", scenario.tool);
   tests::Process up = deployment.quoin({"up", "FILE", "--json"});
   soak::Memory memory;
@@ -234,8 +233,6 @@ int main(int argc, char** argv) {
   app.add_flag("--kinds", options.kinds, "With the kinds of tests/kinds, beside shipped ones");
   app.add_flag("--composed", options.composed,
                "With the stages of side_by_side.yaml in one process, or several");
-  app.add_flag("--hostile", options.hostile,
-               "With a hostile neighbour beside it (not with --kinds or --composed)");
   app.add_flag("--verbose", options.verbose, "Print the log of the deployment");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { interrupted = 1; });

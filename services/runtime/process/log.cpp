@@ -10,6 +10,7 @@
 #include <mutex>
 #include <new>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -161,6 +162,16 @@ void report_uncaught_exceptions() {
     }
     std::_Exit(1);
   });
+}
+
+std::string failure_text(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
+  // What starts a thread reports it like that.
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  const bool nothing_left =
+      system != nullptr && (system->code() == std::errc::resource_unavailable_try_again ||
+                            system->code() == std::errc::not_enough_memory);
+  return nothing_left ? "out of memory or of threads; see ulimit -a" : error.what();
 }
 
 LogName::LogName(std::string name) : before_(std::exchange(name_of_thread, std::move(name))) {}

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -53,6 +54,9 @@ void start_log(const std::string& name);
 /// From now on an exception that nobody catches, in whatever thread, ends the process with a line
 /// on standard error and exit code 1: mostly there is no memory left.
 void report_uncaught_exceptions();
+
+/// What an error says; of one that comes of missing memory, that it does.
+[[nodiscard]] std::string failure_text(const std::exception& error);
 
 /// While it lives, what this thread logs is about that service.
 class LogName {

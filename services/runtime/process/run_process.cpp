@@ -200,7 +200,7 @@ class Runner {
     try {
       exit_code = entry.body(service);
     } catch (const std::exception& error) {
-      spdlog::error("{}", error.what());
+      spdlog::error("{}", failure_text(error));
       service.record.set_endpoint_report(nullptr);
       process_.heartbeat.finish(service.record, msg::ServiceState::STATE_FAILED, error.what());
     }
@@ -349,7 +349,7 @@ int run_process(int argc, char** argv, const std::vector<Component>& components)
     for (const std::string& message : error.messages()) spdlog::error("{}", message);
     return exit_configuration;
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error("{}", failure_text(error));
     return exit_failure;
   }
 }

@@ -3,6 +3,7 @@
 #include "sensor_bridge/recordings/line_reader.hpp"
 
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -72,6 +73,10 @@ TEST(LineReader, ReportsWhatCannotBeOpened) {
             "cannot read scan file '" + missing + "': No such file or directory");
   EXPECT_EQ(error_of<ScanFileError>([&] { LineReader lines(folder.path()); }),
             "cannot read scan file '" + folder.path().string() + "': it is a folder");
+  const std::string fifo = folder.path() / "fifo.log";  // opening it would wait for a writer
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(error_of<ScanFileError>([&] { LineReader lines(fifo); }),
+            "cannot read scan file '" + fifo + "': it is not a regular file");
 }
 
 TEST(LineReader, GivesEachWholeLineOfACompressedFileThatIsCutOff) {

@@ -74,6 +74,14 @@ TEST(MapFile, SaysWhatIsWrong) {
               HasSubstr("damaged or was edited"));
 }
 
+/// Opening one would wait for whoever writes into it.
+TEST(MapFile, IsNoFifo) {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "map.qmap";
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_THAT(error_of<MapError>([&] { (void)read_text(file); }), HasSubstr("regular file"));
+}
+
 TEST(WriteWhole, ReplacesOrLeavesWhatIsThere) {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "map.svg";
