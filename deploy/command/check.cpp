@@ -12,6 +12,7 @@
 #include "deploy/kinds/kinds.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/replay/kind.hpp"
+#include "sensor_bridge/replay/message_replay.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
@@ -88,9 +89,13 @@ void check_recordings(const Deployment& deployment) {
   for (const ServiceConfig& service : deployment.services) {
     if (service.info != &sensor_bridge::replay_kind()) continue;
     try {
-      sensor_bridge::ScanFiles files = sensor_bridge::open_scan_files(
-          make_parameters<sensor_bridge::ReplayParameters>(service.parameters),
-          deployment.file.parent_path());
+      const auto parameters = make_parameters<sensor_bridge::ReplayParameters>(service.parameters);
+      const std::filesystem::path folder = deployment.file.parent_path();
+      if (sensor_bridge::replays_messages(parameters)) {
+        (void)sensor_bridge::open_message_replay(parameters, folder);
+        continue;
+      }
+      sensor_bridge::ScanFiles files = sensor_bridge::open_scan_files(parameters, folder);
       sensor_bridge::RecordedScan scan;
       (void)files.next(scan);
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -56,11 +57,14 @@ void print(const msg::ControlReply& reply) {
     std::cerr << reply.service() << ": refused: " << reply.detail() << "; nothing was changed\n";
     return;
   }
-  std::cout << reply.service() << ": " << reply.method();
+  std::cout << reply.service() << ':' << (reply.method().empty() ? "" : " " + reply.method());
   for (const msg::ParameterSetting& setting : reply.parameters()) {
     std::cout << ' ' << setting.name() << '=' << setting.value();
   }
-  std::cout << " from scan " << reply.first_sequence_number() << " on\n";
+  if (!reply.method().empty()) {
+    std::cout << " from scan " << reply.first_sequence_number() << " on";
+  }
+  std::cout << '\n';
 }
 
 int run(const ControlOptions& options, msg::ControlAction action) {
@@ -99,6 +103,17 @@ int run(const ControlOptions& options, msg::ControlAction action) {
   return reply->accepted() ? exit_ok : exit_configuration;
 }
 
+/// How to reach a service, and how to answer.
+void add_service_options(CLI::App& line, ControlOptions& options) {
+  CLI::Option* file = line.add_option("--deployment", options.file,
+                                      "Deployment file that says domain and namespace");
+  add_network_options(line, options.network, file);
+  line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
+      ->capture_default_str()
+      ->transform(a_time());
+  line.add_flag("--json", options.json, "The answer as a JSON object");
+}
+
 void add_options(CLI::App& line, ControlOptions& options, bool settings_required) {
   CLI::Option* settings = line.add_option("settings", options.settings,
                                           "Parameters as name=value, with or without unit")
@@ -109,15 +124,9 @@ void add_options(CLI::App& line, ControlOptions& options, bool settings_required
                                            : std::string();
                               });
   settings->required(settings_required);
-  CLI::Option* file = line.add_option("--deployment", options.file,
-                                      "Deployment file that says domain and namespace");
-  add_network_options(line, options.network, file);
-  line.add_option("--wait", options.wait, "How long to wait for the answer [s]")
-      ->capture_default_str()
-      ->transform(a_time());
+  add_service_options(line, options);
   line.add_flag("--drop-state", options.drop_state,
                 "Even when the new method cannot go on with what the present one has learned");
-  line.add_flag("--json", options.json, "The answer as a JSON object");
 }
 
 }  // namespace
@@ -138,6 +147,32 @@ Command add_set(CLI::App& app) {
   const auto options = std::make_shared<ControlOptions>();
   line->add_option("service", options->service, "Name of the service")->required();
   add_options(*line, *options, true);
+  return {line, [options] { return run(*options, msg::ControlAction::CONTROL_SET_PARAMETERS); }};
+}
+
+Command add_playback(CLI::App& app) {
+  CLI::App* line = app.add_subcommand("playback", "Pause, step or speed up a running replay");
+  line->require_subcommand(1);
+  const auto options = std::make_shared<ControlOptions>();
+  const auto value = std::make_shared<std::string>("1");
+  const auto action = [&](const char* name, const char* what, const char* setting) {
+    CLI::App* sub = line->add_subcommand(name, what);
+    sub->add_option("service", options->service, "Name of the replay")->required();
+    add_service_options(*sub, *options);
+    const bool open = std::string_view(setting).ends_with('=');
+    sub->callback(
+        [options, value, setting, open] { options->settings = {setting + (open ? *value : "")}; });
+    return sub;
+  };
+  action("pause", "Publish nothing until it goes on", "paused=true");
+  action("resume", "Go on", "paused=false");
+  action("step", "Publish the next message, or so many, and be paused then", "step=")
+      ->add_option("messages", *value, "How many")
+      ->check(CLI::PositiveNumber);
+  action("speed", "Go on at another speed", "speed=")
+      ->add_option("factor", *value, "On the recorded speed; 0 is without waiting")
+      ->check(CLI::NonNegativeNumber)
+      ->required();
   return {line, [options] { return run(*options, msg::ControlAction::CONTROL_SET_PARAMETERS); }};
 }
 

@@ -6,8 +6,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
+#include "core/text/printable.hpp"
 #include "deploy/command/commands.hpp"
 #include "deploy/evaluation/drawing/drawing.hpp"
 #include "deploy/evaluation/drawing/png.hpp"
@@ -20,6 +22,8 @@
 #include "deploy/orchestration/launch.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "deploy/orchestration/supervisor.hpp"
+#include "deploy/recordings/scan_picture.hpp"
+#include "sensor_bridge/message_files/scan_file_error.hpp"
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::deploy {
@@ -34,6 +38,8 @@ struct DrawOptions {
   std::string service;
   std::string output;
   std::optional<std::uint64_t> scan;
+  std::optional<double> at;  // [s]
+  std::string topic;
   bool run = false;
   double wait = 10.0;  // [s] without any message
   DrawingOptions drawing;
@@ -122,7 +128,41 @@ std::optional<Drawing> wait_for_drawing(const DrawOptions& options, ScanJoin& jo
   return std::nullopt;
 }
 
+int write_picture(const DrawOptions& options, const Drawing& drawing) {
+  const std::string svg = draw_svg(drawing, options.drawing);
+  const bool png = std::filesystem::path(options.output).extension() == ".png";
+  write_whole(options.output, png ? png_of(svg) : svg);
+  std::cout << options.output << ": " << drawing.title << "; " << drawing.points.size()
+            << " points, " << drawing.lines.size() << " lines, " << drawing.corners.size()
+            << " corners";
+  if (!drawing.circles.empty()) std::cout << ", " << drawing.circles.size() << " circles";
+  std::cout << '\n';
+  return exit_ok;
+}
+
+int draw_recording(const DrawOptions& options) {
+  if (options.run) throw std::out_of_range("--run starts a deployment, and this is a recording");
+  try {
+    return write_picture(options,
+                         picture_of_recording(options.file, {.topic = options.topic,
+                                                             .service = options.service,
+                                                             .scan = options.scan.value_or(0),
+                                                             .at = options.at}));
+  } catch (const sensor_bridge::ScanFileError& error) {
+    std::cerr << printable(error.what()) << '\n';
+    return exit_input;
+  }
+}
+
 int run(const DrawOptions& options) {
+  const std::string extension = std::filesystem::path(options.file).extension();
+  if (extension != ".yaml" && extension != ".yml") return draw_recording(options);
+  if (options.service.empty()) {
+    throw std::out_of_range("--service is missing: the corner service whose result is drawn");
+  }
+  if (options.at || !options.topic.empty()) {
+    throw std::out_of_range("--at and --topic are for recordings");
+  }
   const Deployment deployment = load_deployment(options.file);
   const CornerChain chain = corner_chain(deployment, options.service);
   Signals signals;  // before DDS starts its threads
@@ -132,15 +172,7 @@ int run(const DrawOptions& options) {
   const int exit_code = companion.stop(signals);
   if (!drawing) return exit_code != exit_ok ? exit_code : exit_failure;
 
-  const std::string svg = draw_svg(*drawing, options.drawing);
-  const bool png = std::filesystem::path(options.output).extension() == ".png";
-  write_whole(options.output, png ? png_of(svg) : svg);
-  std::cout << options.output << ": " << drawing->title << "; " << drawing->points.size()
-            << " points, " << drawing->lines.size() << " lines, " << drawing->corners.size()
-            << " corners";
-  if (!drawing->circles.empty()) std::cout << ", " << drawing->circles.size() << " circles";
-  std::cout << '\n';
-  return exit_ok;
+  return write_picture(options, *drawing);
 }
 
 }  // namespace
@@ -149,13 +181,20 @@ Command add_draw(CLI::App& app) {
   CLI::App* line = app.add_subcommand(
       "draw", "Draw one scan with its lines, corners, circles and 95 % ellipses as SVG or PNG");
   const auto options = std::make_shared<DrawOptions>();
-  line->add_option("file", options->file, "Deployment file (YAML)")->required();
-  line->add_option("--service", options->service, "Corner service whose result is drawn")
+  line->add_option("file", options->file,
+                   "Deployment file (YAML), or a recording (MCAP, bag, CARMEN, CSV, ...)")
       ->required();
+  line->add_option(
+      "--service", options->service,
+      "Corner service whose result is drawn; of a recording the only one, if left out");
   line->add_option("-o,--output", options->output, "File to write: .png is PNG, anything else SVG")
       ->required();
   line->add_option("--scan", options->scan,
                    "Number of the scan, from 0; else the first that is complete");
+  line->add_option("--at", options->at,
+                   "Of a recording: the scan so long after the first [s], in place of its number")
+      ->excludes("--scan");
+  line->add_option("--topic", options->topic, "Of a recording with several: the topic of scans");
   line->add_flag("--run", options->run, "Start the deployment for the picture and stop it again");
   line->add_option("--wait", options->wait, "Give up when nothing arrives for this time [s]")
       ->transform(a_time())

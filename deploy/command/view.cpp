@@ -14,6 +14,7 @@
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/viewer/feed.hpp"
+#include "services/viewer/playback_remote.hpp"
 #include "services/viewer/settings.hpp"
 
 namespace quoin::deploy {
@@ -40,6 +41,7 @@ int run(const ViewOptions& options) {
     }
   }
   runtime::Participant participant(config);
+  const viewer::PlaybackAnswers answers(view, participant, deployment);
   const viewer::Feed feed(participant, view, deployment.name_space, observed);
   std::cout << view.url() << "\nCtrl-C ends the page, not what it shows" << std::endl;
   pollfd wait_for{signals.descriptor(), POLLIN, 0};

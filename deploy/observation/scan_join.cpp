@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/observation/scan_join.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "core/geometry/corner.hpp"
 #include "core/parameters/parameter.hpp"
-#include "core/statistics/chi_square.hpp"
+#include "deploy/observation/message_drawing.hpp"
 #include "services/deployment/graph.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/topics/header.hpp"
@@ -115,49 +112,17 @@ std::optional<Drawing> ScanJoin::poll(std::chrono::milliseconds timeout) {
   return std::nullopt;
 }
 
-namespace {
-
-void add_circles(const msg::Circles& message, Drawing& drawing) {
-  for (const msg::Circle& circle : message.circles()) {
-    Eigen::Matrix2d covariance;
-    covariance << circle.covariance_xx(), circle.covariance_xy(), circle.covariance_xy(),
-        circle.covariance_yy();
-    const Ellipse shape = ellipse(covariance, chi_square_2_95);
-    drawing.circles.push_back(
-        {{{circle.x(), circle.y()}, shape.semi_major, shape.semi_minor, shape.direction},
-         circle.radius()});
-  }
-}
-
-}  // namespace
-
 Drawing ScanJoin::draw(const Parts& parts) const {
   Drawing drawing;
   const msg::Segments& segments = *parts.segments;
-  const std::size_t count = std::min(segments.bearings().size(), segments.ranges().size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const double bearing = segments.bearings()[i];
-    const double range = segments.ranges()[i];
-    drawing.points.push_back({range * std::cos(bearing), range * std::sin(bearing)});
-  }
-  for (const msg::Line& line : parts.lines->lines()) {
-    drawing.lines.push_back(
-        {{line.start().x(), line.start().y()}, {line.end().x(), line.end().y()}});
-  }
-  for (const msg::Corner& corner : parts.corners->corners()) {
-    drawing.corners.push_back({{corner.x(), corner.y()},
-                               corner.ellipse95_major(),
-                               corner.ellipse95_minor(),
-                               corner.ellipse95_direction()});
-  }
+  add_points(segments.bearings(), segments.ranges(), drawing);
+  add_lines(*parts.lines, drawing);
+  add_corners(*parts.corners, drawing);
   if (parts.circles) add_circles(*parts.circles, drawing);
   drawing.title =
       chain_.corners->name + ", scan " + std::to_string(topics::sequence_number(segments.header()));
   // The methods that made the result, which control may have swapped since the start.
-  for (const msg::StageTrace& stage : parts.corners->header().trace()) {
-    drawing.caption += (drawing.caption.empty() ? "" : ", ") + stage.service();
-    if (!stage.method().empty()) drawing.caption += " (" + stage.method() + ")";
-  }
+  drawing.caption = stages_text(parts.corners->header());
   drawing.caption += "; covariances " + parts.corners->covariance_mode();
   return drawing;
 }

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text/printable.hpp"
 #include "sensor_bridge/message_files/mcap_reader.hpp"
 
 namespace quoin::deploy {
@@ -170,11 +171,7 @@ std::vector<std::string> contents_lines(const Contents& contents) {
     }
   }
   for (const std::string& name : contents.attachments) lines.push_back("attachment: " + name);
-  // What comes of a file goes to a terminal.
-  for (std::string& line : lines) {
-    std::ranges::replace_if(
-        line, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, '?');
-  }
+  for (std::string& line : lines) line = printable(line);
   return lines;
 }
 

@@ -61,6 +61,10 @@ class Reader {
   [[nodiscard]] const std::map<std::uint16_t, std::uint64_t>& counts() const { return counts_; }
   /// [byte] of the record that is read next, or of the chunk that is being read
   [[nodiscard]] std::uint64_t offset() const { return record_offset_; }
+  /// How much of the file is read, 0 to 1.
+  [[nodiscard]] double progress() const {
+    return static_cast<double>(record_offset_) / static_cast<double>(file_.size());
+  }
   /// Whether the end of the data was reached as the format wants it.
   [[nodiscard]] bool complete() const { return complete_; }
 

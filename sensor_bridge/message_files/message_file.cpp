@@ -44,6 +44,7 @@ class McapFile final : public MessageFile {
   void skip_until(std::int64_t time) override {
     reader_.skip_until(static_cast<std::uint64_t>(time));
   }
+  [[nodiscard]] std::optional<double> progress() const override { return reader_.progress(); }
 
  private:
   static FileTopic topic_of(const mcap::Channel& channel, const mcap::Schema* schema) {

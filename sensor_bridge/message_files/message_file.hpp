@@ -51,6 +51,8 @@ class MessageFile {
   [[nodiscard]] virtual std::map<std::string, FileTopic> topics() const = 0;
   /// Messages before this time [ns since the Unix epoch] may be left out.
   virtual void skip_until(std::int64_t time) = 0;
+  /// How much of the file is read, 0 to 1; nothing where that is not known.
+  [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
   /// Throws ScanFileError for a message.
   [[noreturn]] void fail(const FileMessage& message, const std::string& what) const;
 

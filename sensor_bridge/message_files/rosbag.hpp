@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ class Rosbag final : public MessageFile {
   [[nodiscard]] bool next(FileMessage& message) override;
   [[nodiscard]] std::map<std::string, FileTopic> topics() const override;
   void skip_until(std::int64_t time) override { skip_until_ = time; }
+  [[nodiscard]] std::optional<double> progress() const override {
+    return static_cast<double>(offset_) / static_cast<double>(file_.size());
+  }
 
  private:
   using Fields = std::map<std::string_view, std::string_view>;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sensor_bridge/excerpt.hpp"
 #include "sensor_bridge/number.hpp"
@@ -158,9 +160,48 @@ void parse_laser(Words& words, bool of_robot, RecordedScan& scan) {
   read_stamps(words, scan);
 }
 
+// ODOM x y theta tv rv acceleration ipc_timestamp ipc_hostname logger_timestamp
+std::optional<RecordedOdometry> parse_odometry(Words& words) {
+  const auto pose = finite(read_pose(words));
+  const double forward = words.number();
+  const double turning = words.number();
+  (void)words.number();  // acceleration
+  RecordedScan stamps;
+  read_stamps(words, stamps);
+  if (!pose || !stamps.stamp) return std::nullopt;
+  RecordedOdometry odometry{.stamp = stamps.stamp, .pose = *pose};
+  if (std::isfinite(forward) && std::isfinite(turning)) {
+    odometry.velocity = Eigen::Vector3d(forward, 0.0, turning);
+  }
+  return odometry;
+}
+
 }  // namespace
 
 bool CarmenScans::operator()(LineReader& lines, RecordedScan& scan) {
+  std::vector<RecordedOdometry> between;
+  std::string note;
+  const auto add_odometry_between = [&] {
+    const bool own = !scan.odometry.empty();
+    std::erase_if(between, [&](const RecordedOdometry& odometry) {
+      return own && scan.stamp && *odometry.stamp >= *scan.stamp;
+    });
+    if (!between.empty()) last_odometry_ = between.back().stamp;
+    if (own && scan.stamp) last_odometry_ = scan.stamp;
+    scan.odometry.insert(scan.odometry.begin(), between.begin(), between.end());
+    if (!note.empty()) scan.notes.push_back(std::move(note));
+  };
+  const auto add_line = [&](Words& words) {
+    try {
+      const auto odometry = parse_odometry(words);
+      const auto last = between.empty() ? last_odometry_ : between.back().stamp;
+      if (odometry && (!last || *odometry->stamp > *last)) between.push_back(*odometry);
+    } catch (const ScanFileError& error) {
+      // The scans are of use without it.
+      if (!bad_odometry_) note = std::string("odometry is passed over: ") + error.what();
+      bad_odometry_ = true;
+    }
+  };
   std::string_view line;
   while (lines.next(line)) {
     Words words(lines, line);
@@ -169,14 +210,17 @@ bool CarmenScans::operator()(LineReader& lines, RecordedScan& scan) {
     words.begin(name);
     if (name == "FLASER") {
       scan.clear();
-      if (std::string note = parse_flaser(words, geometry_, scan); !note.empty()) {
-        scan.notes.push_back(std::move(note));
+      if (std::string guess = parse_flaser(words, geometry_, scan); !guess.empty()) {
+        scan.notes.push_back(std::move(guess));
       }
+      add_odometry_between();
       return true;
     }
+    if (name == "ODOM") add_line(words);
     if (name == "ROBOTLASER1" || name == "RAWLASER1") {
       scan.clear();
       parse_laser(words, name == "ROBOTLASER1", scan);
+      add_odometry_between();
       return true;
     }
   }

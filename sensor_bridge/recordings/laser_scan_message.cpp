@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sensor_bridge/recordings/ros1_cursor.hpp"
 #include "services/topics/cdr_cursor.hpp"
 
 namespace quoin::sensor_bridge {
@@ -18,39 +19,6 @@ namespace quoin::sensor_bridge {
 namespace {
 
 using topics::CdrCursor;
-
-/// Values one behind the other, little-endian, as ROS 1 writes them.
-class Ros1Cursor {
- public:
-  explicit Ros1Cursor(std::string_view bytes) : bytes_(bytes) {}
-
-  template <class T>
-  [[nodiscard]] T primitive() {
-    T value{};
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-  [[nodiscard]] std::string_view string(std::size_t) { return take(primitive<std::uint32_t>()); }
-  [[nodiscard]] std::size_t sequence_length(std::size_t) { return primitive<std::uint32_t>(); }
-  void floats(std::size_t count, std::vector<float>& out) {
-    const std::string_view bytes = take(count * sizeof(float));
-    out.resize(count);
-    if (count > 0) std::memcpy(out.data(), bytes.data(), bytes.size());
-  }
-  void finish() const {
-    if (!bytes_.empty())
-      throw std::runtime_error(std::to_string(bytes_.size()) + " bytes too many");
-  }
-
- private:
-  std::string_view take(std::size_t count) {
-    if (bytes_.size() < count) throw std::runtime_error("it is cut off");
-    const std::string_view taken = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
-    return taken;
-  }
-  std::string_view bytes_;
-};
 
 class CdrFloats : public CdrCursor {
  public:
@@ -82,14 +50,12 @@ void set_stamp(std::int64_t stamp, RecordedScan& scan) {
   scan.stamp = static_cast<double>(stamp) * 1e-9;
 }
 
-/// sensor_msgs/LaserScan; the header of ROS 1 begins with a number.
+/// sensor_msgs/LaserScan.
 template <class Cursor>
 void read_laser_scan(Cursor& cursor, bool numbered, RecordedScan& scan) {
-  if (numbered) (void)cursor.template primitive<std::uint32_t>();
-  const auto seconds = cursor.template primitive<std::uint32_t>();
-  const auto nanoseconds = cursor.template primitive<std::uint32_t>();
-  set_stamp(std::int64_t{seconds} * 1'000'000'000 + nanoseconds, scan);
-  scan.frame = cursor.string(0);
+  const RosHeader header = read_ros_header(cursor, numbered);
+  set_stamp(header.stamp, scan);
+  scan.frame = header.frame;
   const auto first = cursor.template primitive<float>();
   (void)cursor.template primitive<float>();  // the last bearing: by the step and the count
   const auto step = cursor.template primitive<float>();

@@ -37,6 +37,13 @@ LineReader::LineReader(const std::filesystem::path& file)
     throw std::bad_alloc();
   }
   gzbuffer(file_of(handle_.get()), chunk_size);
+  size_ = std::filesystem::file_size(file, error);
+  if (error) size_ = 0;  // a pipe
+}
+
+double LineReader::progress() const {
+  const auto read = static_cast<double>(gzoffset(file_of(handle_.get())));
+  return size_ == 0 ? 0.0 : std::clamp(read / static_cast<double>(size_), 0.0, 1.0);
 }
 
 bool LineReader::next(std::string_view& line) {

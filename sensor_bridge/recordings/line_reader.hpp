@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -32,6 +33,9 @@ class LineReader {
   /// Number of the line last read, from 1; 0 before the first.
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
 
+  /// How much of the file is read, 0 to 1.
+  [[nodiscard]] double progress() const;
+
   /// Throws ScanFileError for the byte at `offset` of the line last read.
   [[noreturn]] void fail(std::size_t offset, const std::string& what) const;
 
@@ -44,6 +48,7 @@ class LineReader {
 
   std::string file_;
   std::unique_ptr<void, Closer> handle_;  // gzFile; zlib stays out of the header
+  std::uintmax_t size_ = 0;               // [byte] of the file
   std::vector<char> chunk_;
   std::size_t begin_ = 0;  // unread part of the chunk
   std::size_t end_ = 0;

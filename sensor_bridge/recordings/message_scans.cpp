@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/recordings/message_scans.hpp"
 
-#include <map>
 #include <optional>
+#include <utility>
 
-#include "sensor_bridge/excerpt.hpp"
-#include "sensor_bridge/message_files/message_file.hpp"
+#include "sensor_bridge/message_files/topic_choice.hpp"
 #include "sensor_bridge/recordings/laser_scan_message.hpp"
+#include "sensor_bridge/recordings/odometry_message.hpp"
 
 namespace quoin::sensor_bridge {
 
@@ -15,73 +15,57 @@ namespace {
 
 class MessageScans final : public ScanReader {
  public:
-  MessageScans(const std::filesystem::path& file, const std::string& topic, double start)
-      : name_(file.string()), file_(open_message_file(file)), start_(start) {
-    topic_ = topic.empty() ? only_topic(file) : topic;
+  MessageScans(const std::filesystem::path& file, const ReplayParameters& parameters)
+      : choice_(file, parameters.topic), file_(open_message_file(file)), start_(parameters.start) {
+    const auto scans = choice_.find(
+        [](const FileTopic& topic) { return scan_message(topic.type, topic.encoding).has_value(); },
+        "scans");
+    if (!scans) choice_.fail_without("scans");
+    scans_ = *scans;
+    if (!parameters.odometry) return;
+    odometry_ = choice_.find(
+        [](const FileTopic& topic) {
+          return odometry_message(topic.type, topic.encoding).has_value();
+        },
+        "odometry");
   }
 
   bool next(RecordedScan& scan) override {
+    std::vector<RecordedOdometry> odometry;
     while (file_->next(message_)) {
       if (!first_time_) first_time_ = message_.log_time;
-      if (message_.topic->name != topic_) continue;
+      const FileTopic& topic = *message_.topic;
+      if (topic.name != scans_ && topic.name != odometry_) continue;
       if (static_cast<double>(message_.log_time - *first_time_) * 1e-9 < start_) continue;
-      const auto kind = scan_message(message_.topic->type, message_.topic->encoding);
-      if (!kind) fail("topic '" + topic_ + "' holds no scans, but " + message_.topic->type);
+      if (topic.name == odometry_) {
+        const auto kind = odometry_message(topic.type, topic.encoding);
+        if (!kind) continue;  // another channel of that name
+        add(*kind, odometry.emplace_back());
+        continue;
+      }
+      const auto kind = scan_message(topic.type, topic.encoding);
+      if (!kind) fail("topic '" + scans_ + "' holds no scans, but " + topic.type);
       const std::string wrong = read_scan_message(*kind, message_.data, scan);
       if (!wrong.empty()) file_->fail(message_, wrong);
+      scan.odometry = std::move(odometry);
       return true;
     }
     return false;
   }
 
-  [[noreturn]] void fail(const std::string& what) const override {
-    throw ScanFileError(name_ + ": " + what + topics_text(file_->topics()));
-  }
+  [[noreturn]] void fail(const std::string& what) const override { choice_.fail(what); }
+  [[nodiscard]] std::optional<double> progress() const override { return file_->progress(); }
 
  private:
-  /// Reads the whole file where its topics do not stand at its end.
-  static std::string only_topic(const std::filesystem::path& path) {
-    const auto file = open_message_file(path);
-    auto topics = file->topics();
-    if (topics.empty()) {
-      FileMessage message;
-      try {
-        while (file->next(message)) {
-        }
-      } catch (const ScanFileError&) {
-        // Told when the scans before it have been read.
-      }
-      topics = file->topics();
-    }
-    std::string found;
-    for (const auto& [name, topic] : topics) {
-      if (!scan_message(topic.type, topic.encoding)) continue;
-      if (!found.empty()) {
-        throw ScanFileError(path.string() + ": several topics hold scans; name one with 'topic'" +
-                            topics_text(topics));
-      }
-      found = name;
-    }
-    if (found.empty()) {
-      throw ScanFileError(path.string() + ": no topic holds scans" + topics_text(topics));
-    }
-    return found;
+  void add(OdometryMessage kind, RecordedOdometry& odometry) {
+    const std::string wrong = read_odometry_message(kind, message_.data, odometry);
+    if (!wrong.empty()) file_->fail(message_, wrong);
   }
 
-  static std::string topics_text(const std::map<std::string, FileTopic>& topics) {
-    if (topics.empty()) return "; the file has no topics";
-    std::string text = "; its topics are ";
-    for (const auto& [name, topic] : topics) {
-      text += (name == topics.begin()->first ? "" : ", ") + name + " (" + topic.type +
-              (topic.encoding == "cdr" || topic.encoding == "ros1" ? "" : " as " + topic.encoding) +
-              ")";
-    }
-    return printable(text);
-  }
-
-  std::string name_;
+  TopicChoice choice_;
   std::unique_ptr<MessageFile> file_;
-  std::string topic_;
+  std::string scans_;                    // topic
+  std::optional<std::string> odometry_;  // topic
   double start_;
   std::optional<std::int64_t> first_time_;
   FileMessage message_;
@@ -90,8 +74,8 @@ class MessageScans final : public ScanReader {
 }  // namespace
 
 std::unique_ptr<ScanReader> open_message_scans(const std::filesystem::path& file,
-                                               const std::string& topic, double start) {
-  return std::make_unique<MessageScans>(file, topic, start);
+                                               const ReplayParameters& parameters) {
+  return std::make_unique<MessageScans>(file, parameters);
 }
 
 }  // namespace quoin::sensor_bridge

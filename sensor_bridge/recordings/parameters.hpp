@@ -65,8 +65,10 @@ struct ReplayParameters : SensorDeclaration {
   static constexpr double usual_range_max = 80.0;  ///< [m] left so, a limit in the file is used
 
   std::string path;
+  std::string messages = "scan";
   ScanFormat format = ScanFormat::automatic;
   double speed = 1.0;  ///< factor
+  bool paused = false;
   bool loop = false;
   std::int64_t scans = 0;  ///< 0: all
   double rate_hz = 10.0;   ///< [Hz]
@@ -105,12 +107,17 @@ struct ReplayParameters : SensorDeclaration {
             &P::path, "path",
             "recording (CARMEN, CSV, JSON, .dat, MCAP, ROS 1 and ROS 2 bags), or folder whose scan "
             "files are read in the order of their names (relative to the deployment file)"),
+        field(&P::messages, "messages",
+              "types to publish, with commas: scan, or of a recording of ours segments, lines, "
+              "corners, circles, pose, line_map, to test what follows; odometry has a parameter of "
+              "its own"),
         field(&P::format, "format", "how the files are written"),
         field(&P::speed, "speed", "", 0.0, 1000.0,
               "factor on the recorded speed; 0 is as fast as the readers accept"),
+        field(&P::paused, "paused", "wait with the first scan for quoin playback"),
         field(&P::loop, "loop", "start again after the last scan"),
         field(&P::scans, "scans", "", 0.0, 9007199254740992.0,
-              "scans to publish before ending; 0 is all"),
+              "scans, or other messages, to publish before ending; 0 is all"),
         field(&P::rate_hz, "rate_hz", "Hz", 0.1, 1000.0,
               "scans a second where the file holds no usable time stamps"),
         field(&P::stamps, "stamps",
@@ -120,7 +127,10 @@ struct ReplayParameters : SensorDeclaration {
               "publish the odometry of the recording, too; many logs hold poses that a mapper has "
               "corrected under that name"),
         field(&P::start, "start", "s", 0.0, 1e9, "leave out what comes before, by the stamps"),
-        field(&P::topic, "topic", "of scans in an MCAP file or bag; empty: the only one"),
+        field(
+            &P::topic, "topic",
+            "of an MCAP file or bag, with commas where several are published; empty: the only one "
+            "of its type"),
         field(&P::columns, "columns",
               "names of the columns of CSV files, such as quality;angle_deg;distance_mm; empty: as "
               "the file says, or by guess"),
@@ -143,7 +153,7 @@ struct ReplayParameters : SensorDeclaration {
         field(&P::range_min, "range_min", "m", 0.0, 1000.0, "shorter ranges are too close"),
         field(&P::range_max, "range_max", "m", 0.01, 10000.0,
               "this and longer is no return; 80 m: or what the file says"),
-        field(&P::frame, "frame", "frame of the sensor (REP-105)"),
+        field(&P::frame, "frame", "frame of the sensor (REP-105); left so, that of the file"),
         field(&P::base_frame, "base_frame", "frame of the robot, whose odometry it is"),
         field(&P::odometry_frame, "odometry_frame", "frame in which odometry is given")};
     return std::tuple_cat(own, sensor_fields<P>());

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/geometry/pose.hpp"
 #include "core/sensor/points.hpp"
 
@@ -15,8 +17,15 @@ namespace quoin::sensor_bridge {
 
 /// Where the robot was by its wheels.
 struct RecordedOdometry {
-  std::optional<double> stamp;  ///< [s] by the clock of the recording; nothing: that of the scan
-  Pose2 pose;                   ///< in a frame that does not move
+  std::optional<double> stamp =
+      {};           ///< [s] by the clock of the recording; nothing: that of the scan
+  Pose2 pose = {};  ///< in a frame that does not move
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of x, y, theta; zero: not known
+  std::optional<Eigen::Vector3d> velocity =
+      {};  ///< [m/s, m/s, rad/s] of the robot in its own frame
+  std::optional<std::int64_t> epoch_stamp = {};  ///< [ns since the Unix epoch] where it is exact
+  std::string frame = {};                        ///< "" when the recording has none
+  std::string child_frame = {};
 };
 
 /// A scan as a file holds it. Bearings and ranges have the same length.

@@ -108,7 +108,7 @@ std::unique_ptr<ScanReader> open_scans(const std::filesystem::path& file,
     case ScanFormat::breezyslam:
       return by_lines(BreezySlamScans());
     case ScanFormat::messages:
-      return open_message_scans(file, parameters.topic, parameters.start);
+      return open_message_scans(file, parameters);
     case ScanFormat::automatic:
     case ScanFormat::carmen:
       break;
@@ -258,6 +258,12 @@ void ScanFiles::declare(RecordedScan& scan) const {
   const double longest = of_file ? std::nextafter(static_cast<float>(*scan.range_max), HUGE_VALF)
                                  : parameters_.range_max;
   apply_range_limits(parameters_.range_min, longest, scan.ranges);
+}
+
+std::optional<double> ScanFiles::progress() const {
+  const auto in_file = reader_ ? reader_->progress() : std::nullopt;
+  if (!in_file) return std::nullopt;
+  return (static_cast<double>(index_) + *in_file) / static_cast<double>(files_.size());
 }
 
 void ScanFiles::rewind() { open(0); }

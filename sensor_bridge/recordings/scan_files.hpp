@@ -37,6 +37,9 @@ class ScanFiles {
   /// then.
   bool next(RecordedScan& scan);
 
+  /// How much of the files is read, 0 to 1; nothing where that is not known.
+  [[nodiscard]] std::optional<double> progress() const;
+
   /// Starts again with the first file. Throws ScanFileError.
   void rewind();
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sensor_bridge/recordings/line_reader.hpp"
@@ -22,6 +23,9 @@ class ScanReader {
   /// ScanFileError where the file is bad.
   virtual bool next(RecordedScan& scan) = 0;
 
+  /// How much of the file is read, 0 to 1; nothing where that is not known.
+  [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
+
   /// Throws ScanFileError for the place that was read last.
   [[noreturn]] virtual void fail(const std::string& what) const = 0;
 };
@@ -34,6 +38,7 @@ class LineScanReader final : public ScanReader {
       : lines_(file), read_(std::move(read)) {}
 
   bool next(RecordedScan& scan) override { return read_(lines_, scan); }
+  [[nodiscard]] std::optional<double> progress() const override { return lines_.progress(); }
   [[noreturn]] void fail(const std::string& what) const override { lines_.fail(0, what); }
 
  private:

@@ -26,6 +26,14 @@ class Playback {
   /// period continues from `now` and sends no burst.
   [[nodiscard]] double due(const RecordedScan& scan, double now);
 
+  /// The same for a message that was recorded at `time` [s], by a clock that does not jump: of the
+  /// time to the message before, what is beyond `longest_period` is left out.
+  [[nodiscard]] double due_at(double time, double now);
+
+  /// From now on. Returns when what was due at `due` is due by that speed, and is not before `now`.
+  double set_speed(double speed, double now);
+  [[nodiscard]] double speed() const { return speed_; }
+
   /// Recorded time [s] from the first scan to the one that `due` was asked for last, with pauses of
   /// up to a day as they are, and the last good period where a stamp cannot be used.
   [[nodiscard]] double recorded_time() const { return recorded_time_; }
@@ -34,6 +42,8 @@ class Playback {
   [[nodiscard]] std::size_t bad_stamps() const { return bad_stamps_; }
 
  private:
+  double due_after(double seconds, double longest_delay, double now);
+
   double speed_;
   double period_;  // [s] last good one
   double due_ = 0.0;

@@ -13,7 +13,8 @@
 
 #include "sensor_bridge/recordings/parameters.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
-#include "sensor_bridge/replay/playback.hpp"
+#include "sensor_bridge/replay/message_replay.hpp"
+#include "sensor_bridge/replay/playback_control.hpp"
 #include "sensor_bridge/scan_declaration.hpp"
 #include "services/topics/poses.hpp"
 #include "services/topics/segments.hpp"
@@ -21,7 +22,6 @@
 namespace quoin::sensor_bridge {
 namespace {
 
-using Seconds = std::chrono::duration<double>;
 using std::chrono::steady_clock;
 using std::chrono::system_clock;
 
@@ -39,10 +39,10 @@ std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 /// Odometry of the recording, stamped by the same clock as the scans.
 class OdometryOutput {
  public:
-  explicit OdometryOutput(const ReplayParameters& parameters) : wanted_(parameters.odometry) {
-    message_.header().frame(parameters.odometry_frame);
-    message_.child_frame(parameters.base_frame);
-  }
+  explicit OdometryOutput(const ReplayParameters& parameters)
+      : wanted_(parameters.odometry),
+        frame_(parameters.odometry_frame),
+        child_frame_(parameters.base_frame) {}
 
   /// What was recorded up to `scan`, which is stamped with `stamp` [ns].
   bool publish(const RecordedScan& scan, std::int64_t stamp, runtime::Source& source) {
@@ -51,8 +51,16 @@ class OdometryOutput {
       const double after = odometry.stamp && scan.stamp ? *odometry.stamp - *scan.stamp : 0.0;
       // Farther off it is a wrong stamp.
       if (!(std::abs(after) <= Playback::longest_period)) continue;
-      message_.header().stamp(stamp + nanoseconds(after));
-      message_.pose(topics::pose_message({odometry.pose, Eigen::Matrix3d::Zero()}));
+      const bool exact = odometry.epoch_stamp && scan.epoch_stamp;
+      message_.header().stamp(
+          stamp + (exact ? *odometry.epoch_stamp - *scan.epoch_stamp : nanoseconds(after)));
+      name_frames(odometry);
+      message_.pose(topics::pose_message({odometry.pose, odometry.covariance}));
+      message_.velocity_known(odometry.velocity.has_value());
+      const Eigen::Vector3d velocity = odometry.velocity.value_or(Eigen::Vector3d::Zero());
+      message_.velocity_x(velocity.x());
+      message_.velocity_y(velocity.y());
+      message_.velocity_theta(velocity.z());
       if (!source.publish_also(message_)) return false;
       ++published_;
     }
@@ -62,7 +70,20 @@ class OdometryOutput {
   [[nodiscard]] bool found_nothing() const { return wanted_ && published_ == 0; }
 
  private:
+  /// Those of the recording, unless the deployment names others.
+  void name_frames(const RecordedOdometry& odometry) {
+    const ReplayParameters usual;
+    const auto name = [](const std::string& declared, const std::string& by_default,
+                         const std::string& recorded) {
+      return declared == by_default && !recorded.empty() ? recorded : declared;
+    };
+    message_.header().frame(name(frame_, usual.odometry_frame, odometry.frame));
+    message_.child_frame(name(child_frame_, usual.base_frame, odometry.child_frame));
+  }
+
   bool wanted_;
+  std::string frame_;
+  std::string child_frame_;
   msg::Odometry message_;
   std::size_t published_ = 0;
 };
@@ -98,12 +119,12 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
   msg::Scan scan = declared_scan(parameters);
   RecordedScan recorded;
   OdometryOutput odometry(parameters);
-  Playback playback(parameters.speed, parameters.rate_hz);
+  PlaybackControl control(parameters, source);
+  const Playback& playback = control.playback();
   std::optional<std::int64_t> first_stamp;  // [ns] as recorded
   std::set<std::string> told;               // notes
-  const steady_clock::time_point start = steady_clock::now();
   // From here on it counts how long nothing is heard of it: a file may have no scan for long.
-  if (!source.wait_until(start)) return;
+  if (!source.wait_until(steady_clock::now())) return;
   for (std::int64_t count = 0; parameters.scans == 0 || count < parameters.scans; ++count) {
     if (!next(files, parameters.loop, recorded)) break;
     for (const std::string& note : recorded.notes) {
@@ -112,13 +133,12 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
     fill_scan(recorded, parameters, scan);
 
     const bool stamps_were_good = playback.bad_stamps() == 0;
-    const double due = playback.due(recorded, Seconds(steady_clock::now() - start).count());
+    control.note_progress(files.progress());
+    if (!control.wait_for(recorded)) return;
     if (stamps_were_good && playback.bad_stamps() > 0) {
       source.warn("scan " + std::to_string(count) +
                   " has no usable time stamp; the last good period is kept");
     }
-    if (!source.wait_until(start + std::chrono::round<steady_clock::duration>(Seconds(due))))
-      return;
     const std::chrono::nanoseconds now = system_clock::now().time_since_epoch();
     std::int64_t stamp = now.count();
     if (parameters.stamps == ReplayStamps::recorded) {
@@ -142,6 +162,7 @@ void publish_scans(ScanFiles& files, const ReplayParameters& parameters, runtime
 std::function<void(runtime::Source&)> open_replay(const ServiceConfig& config,
                                                   const std::filesystem::path& base_directory) {
   const auto parameters = make_parameters<ReplayParameters>(config.parameters);
+  if (replays_messages(parameters)) return open_message_replay(parameters, base_directory);
   // Shared only because std::function must be copyable.
   const auto files = std::make_shared<ScanFiles>(open_scan_files(parameters, base_directory));
   return

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/text/list.hpp"
+
 namespace quoin {
 
 namespace {
@@ -32,8 +34,10 @@ bool KindInfo::gives(const OutputPort& port, const ParameterSettings& settings) 
   const auto info = std::ranges::find(parameters, port.parameter, &ParameterInfo::name);
   if (info == parameters.end()) throw std::logic_error("no parameter " + port.parameter);
   const auto setting = std::ranges::find(settings, port.parameter, &ParameterSetting::name);
+  const std::string& value = setting == settings.end() ? info->default_value : setting->text;
   // What is neither true nor false has been reported.
-  return (setting == settings.end() ? info->default_value : setting->text) == "true";
+  if (info->type == ParameterType::boolean) return value == "true";
+  return std::ranges::count(list_entries(value), port.type) > 0;
 }
 
 const KindInfo* KindList::find(std::string_view name) const {

@@ -90,19 +90,27 @@ std::string mismatch(const ServiceConfig& writer, const ServiceConfig& reader,
            writers_of(wanted, kinds);
   }
   const OutputPort* const port = writer.info == nullptr ? nullptr : writer.info->output(wanted);
+  std::string alternative;
   if (port != nullptr && !port->parameter.empty()) {
-    return "'" + writer.name + "' gives " + wanted + " only if asked to; set " + port->parameter +
-           ": true in its parameters";
+    const auto& parameters = writer.info->parameters;
+    const auto info = std::ranges::find(parameters, port->parameter, &ParameterInfo::name);
+    const bool list = info != parameters.end() && info->type == ParameterType::text;
+    if (!list) {
+      return "'" + writer.name + "' gives " + wanted + " only if asked to; set " + port->parameter +
+             ": true in its parameters";
+    }
+    alternative =
+        ", or set " + port->parameter + ": " + wanted + " in its parameters where it has them";
   }
   std::string text = "'" + writer.name + "' gives " + types_of(writer) + " but " + reader.kind +
                      " reads " + wanted;
   const auto chain = kinds_between(writer.outputs.front().type, wanted, kinds);
-  if (!chain) return text + "; name a service " + writers_of(wanted, kinds);
+  if (!chain) return text + "; name a service " + writers_of(wanted, kinds) + alternative;
   std::string kinds_text;
   for (const std::string& kind : *chain) {
     kinds_text += (kinds_text.empty() ? "a " : " and a ") + kind;
   }
-  return text + "; put " + kinds_text + " between";
+  return text + "; put " + kinds_text + " between" + alternative;
 }
 
 /// Where `reader` names `writer` as an input.

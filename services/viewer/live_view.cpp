@@ -5,9 +5,11 @@
 #include <chrono>
 #include <functional>
 #include <idl/LineMap.h>
+#include <stdexcept>
 #include <utility>
 
 #include "services/topics/topic_types.hpp"
+#include "services/viewer/playback_remote.hpp"
 
 namespace quoin::viewer {
 
@@ -42,6 +44,13 @@ LiveView::LiveView(const Deployment& deployment, const ViewerParameters& paramet
       server_(server_settings(parameters, base), hub_, std::move(log)) {
   hub_.add_service("explain",
                    [this](const std::string& request) { return explainer_.answer(request); });
+  if (!controllable_replays(deployment).empty()) {
+    hub_.add_service("playback", [this](const std::string& request) {
+      const std::lock_guard lock(playback_mutex_);
+      if (!playback_) throw std::runtime_error("not yet; ask again in a moment");
+      return playback_(request);
+    });
+  }
   hub_.limit(static_cast<std::size_t>(parameters.clients), client_limits(parameters));
 }
 
@@ -62,6 +71,11 @@ void LiveView::publish(const std::string& topic, const std::string& type,
   if (type == "scan") explainer_.add(topic, header.stamp(), payload);
   hub_.publish(channel_of(topic, type), payload, key_of(type, raw));
   views_.publish(topic, raw.cdr, header.frame(), header.stamp());
+}
+
+void LiveView::answer_playback(Hub::Service service) {
+  const std::lock_guard lock(playback_mutex_);
+  playback_ = std::move(service);
 }
 
 void LiveView::publish(const msg::ServiceStatus& heartbeat) {

@@ -8,6 +8,7 @@
 #include <idl/Status.h>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "services/deployment/deployment.hpp"
@@ -34,6 +35,9 @@ class LiveView {
                const topics::RawMessage& raw, const msg::Header& header);
   void publish(const msg::ServiceStatus& heartbeat);
 
+  /// What answers the page's requests to pause, step or speed up replays; nullptr: nobody.
+  void answer_playback(Hub::Service service);
+
   [[nodiscard]] Hub& hub() { return hub_; }
   [[nodiscard]] std::string url() const { return server_.url(); }
 
@@ -45,6 +49,8 @@ class LiveView {
   const std::uint32_t heartbeats_;  // channel
   FoxgloveChannels views_;
   std::map<std::string, std::uint32_t> channels_;  // by topic
+  std::mutex playback_mutex_;
+  Hub::Service playback_;
   Server server_;
 };
 

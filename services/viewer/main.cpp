@@ -9,6 +9,7 @@
 #include "services/runtime/process/service.hpp"
 #include "services/viewer/feed.hpp"
 #include "services/viewer/kind.hpp"
+#include "services/viewer/playback_remote.hpp"
 
 using namespace quoin;
 
@@ -27,16 +28,18 @@ runtime::Component::Body open(const Deployment& deployment, const ServiceConfig&
       [handle](const std::string&, const ParameterSettings&) {
         return runtime::Method{.handle = handle};
       }));
-  return [view, node, body = node->open(deployment, config),
-          name_space = deployment.name_space](runtime::Service& service) {
-    spdlog::info("page at {}", view->url());
-    const viewer::Feed heartbeats(service.process.participant, *view, name_space, {}, [&] {
-      const viewer::Hub::Figures figures = view->hub().figures();
-      service.record.set_diagnostic("Clients", std::to_string(figures.clients));
-      service.record.set_diagnostic("Dropped For Clients", std::to_string(figures.dropped));
-    });
-    return body(service);
-  };
+  return
+      [view, node, body = node->open(deployment, config), deployment](runtime::Service& service) {
+        spdlog::info("page at {}", view->url());
+        const viewer::PlaybackAnswers answers(*view, service.process.participant, deployment);
+        const viewer::Feed heartbeats(
+            service.process.participant, *view, deployment.name_space, {}, [&] {
+              const viewer::Hub::Figures figures = view->hub().figures();
+              service.record.set_diagnostic("Clients", std::to_string(figures.clients));
+              service.record.set_diagnostic("Dropped For Clients", std::to_string(figures.dropped));
+            });
+        return body(service);
+      };
 }
 
 const runtime::Registration registration({&viewer_kind(), open});

@@ -2,28 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/viewer/settings.hpp"
 
-#include <vector>
+#include "core/text/list.hpp"
 
 namespace quoin::viewer {
 
 namespace {
 
 constexpr std::size_t shortest_token = 16;
-
-/// The entries of a list with commas, without blanks around them.
-std::vector<std::string> entries_of(const std::string& text) {
-  std::vector<std::string> entries;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::size_t first = text.find_first_not_of(' ', begin);
-    if (first < end) {
-      const std::size_t last = text.find_last_not_of(' ', end - 1);
-      entries.push_back(text.substr(first, last - first + 1));
-    }
-    begin = end + 1;
-  }
-  return entries;
-}
 
 /// Tokens stand in addresses.
 bool fits_address(const std::string& token) {
@@ -36,10 +21,10 @@ bool fits_address(const std::string& token) {
 
 ServerSettings server_settings(const ViewerParameters& parameters,
                                const std::filesystem::path& base) {
-  ServerSettings settings{
-      .address = parameters.address,
-      .port = static_cast<std::uint16_t>(parameters.port),
-      .access = {entries_of(parameters.hosts), entries_of(parameters.origins), parameters.token}};
+  ServerSettings settings{.address = parameters.address,
+                          .port = static_cast<std::uint16_t>(parameters.port),
+                          .access = {list_entries(parameters.hosts),
+                                     list_entries(parameters.origins), parameters.token}};
   const std::string& token = parameters.token;
   if (!token.empty() && (token.size() < shortest_token || !fits_address(token))) {
     throw ParameterError(

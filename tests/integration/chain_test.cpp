@@ -2,13 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <idl/Lines.h>
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/simulation/world.hpp"
+#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "services/topics/cdr_codec.hpp"
 #include "tests/integration/harness/deployment.hpp"
 
 namespace quoin {
@@ -186,6 +195,59 @@ TEST(Chain, ALateFitterJoinsTheRunningChain) {
   EXPECT_GT(*second.accounting().first_sequence(), 0U);
   EXPECT_THAT(second.accounting().lost_by_site(), testing::IsEmpty());
   EXPECT_THAT(first.accounting().lost_by_site(), testing::IsEmpty());
+}
+
+/// Messages of one topic of a recording by the stamp of their scan, without what says how they
+/// came.
+std::map<std::int64_t, msg::Lines> recorded_lines(const std::filesystem::path& file,
+                                                  const std::string& topic) {
+  sensor_bridge::mcap::Reader reader(file);
+  sensor_bridge::mcap::RecordedMessage message;
+  std::map<std::int64_t, msg::Lines> result;
+  while (reader.next(message)) {
+    if (message.channel->topic != topic) continue;
+    msg::Lines lines;
+    const auto* bytes = reinterpret_cast<const std::byte*>(message.data.data());
+    EXPECT_TRUE(
+        topics::decode(topics::cdr_codec<msg::Lines>(), bytes, message.data.size(), &lines));
+    const std::int64_t stamp = lines.header().stamp();
+    lines.header().origins().clear();
+    lines.header().trace().clear();
+    result[stamp] = std::move(lines);
+  }
+  return result;
+}
+
+TEST(Chain, StagesOfARecordingGiveTheSameResultsBitForBit) {
+  const TestDeployment recorded(
+      "  - {name: front, kind: simulated, parameters: {environment: domestic_room, rate_hz: 50, "
+      "scans: 60}}\n"
+      "  - {name: walls, kind: segmentation, input: front}\n"
+      "  - {name: fit, kind: line_fitting, input: walls}\n"
+      "  - {name: tape, kind: recorder, inputs: all, parameters: {path: run.mcap}}\n",
+      "qos: lossless\n");
+  Process run = recorded.quoin({"up", "FILE", "--quiet"});
+  ASSERT_EQ(run.wait(60s), 0) << run.errors();
+  const auto file = recorded.directory().path() / "run.mcap";
+  const auto expected = recorded_lines(file, recorded.topic("fit"));
+  ASSERT_EQ(expected.size(), 60U);
+
+  for (const char* stage : {"scan", "segments"}) {
+    const bool from_scans = std::string(stage) == "scan";
+    const TestDeployment replayed(
+        "  - {name: run, kind: replay, parameters: {path: " + file.string() +
+            ", messages: " + stage + ", stamps: recorded, speed: 0}}\n" +
+            (from_scans ? "  - {name: walls, kind: segmentation, input: run}\n" : "") +
+            "  - {name: fit, kind: line_fitting, input: " + (from_scans ? "walls" : "run") +
+            "}\n"
+            "  - {name: tape, kind: recorder, inputs: all, parameters: {path: again.mcap}}\n",
+        "qos: lossless\n", "quoin", std::string("_") + stage);
+    Process again = replayed.quoin({"up", "FILE", "--quiet"});
+    ASSERT_EQ(again.wait(60s), 0) << again.errors();
+    EXPECT_EQ(recorded_lines(replayed.directory().path() / "again.mcap", replayed.topic("fit")),
+              expected)
+        << "from " << stage;
+  }
 }
 
 }  // namespace

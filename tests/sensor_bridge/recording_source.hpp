@@ -5,8 +5,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <idl/Lines.h>
 #include <idl/Odometry.h>
 #include <idl/Pose.h>
+#include <idl/Segments.h>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,6 +40,10 @@ class RecordingSource : public runtime::Source {
   bool publish_own(const std::type_info& type, void* message, msg::Header&) override {
     if (type == typeid(msg::Odometry)) {
       odometry.push_back(*static_cast<const msg::Odometry*>(message));
+    } else if (type == typeid(msg::Lines)) {
+      lines.push_back(*static_cast<const msg::Lines*>(message));
+    } else if (type == typeid(msg::Segments)) {
+      segments.push_back(*static_cast<const msg::Segments*>(message));
     } else {
       poses.push_back(*static_cast<const msg::Pose*>(message));
     }
@@ -50,6 +56,8 @@ class RecordingSource : public runtime::Source {
   std::vector<msg::Scan> scans;
   std::vector<msg::Odometry> odometry;
   std::vector<msg::Pose> poses;
+  std::vector<msg::Lines> lines;
+  std::vector<msg::Segments> segments;
   std::vector<const float*> memory;  ///< of the ranges of the published messages
   std::vector<std::string> warnings;
   std::vector<std::string> notes;

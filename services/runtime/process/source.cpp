@@ -3,7 +3,10 @@
 #include "services/runtime/process/source.hpp"
 
 #include <exception>
+#include <mutex>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -19,10 +22,50 @@ namespace {
 
 using Outputs = std::vector<Node::OutputPart>;
 
+/// What a source answers to requests for its settings.
+class SourceSettings {
+ public:
+  void set(Source::Settings settings) {
+    const std::lock_guard lock(mutex_);
+    settings_ = std::move(settings);
+  }
+
+  void answer(const ServiceConfig& config, const msg::ControlRequest& request,
+              msg::ControlReply& reply) const {
+    std::unique_lock lock(mutex_);
+    const Source::Settings settings = settings_;
+    lock.unlock();
+    const bool question = request.action() == msg::ControlAction::CONTROL_DESCRIBE;
+    const bool setting = request.action() == msg::ControlAction::CONTROL_SET_PARAMETERS;
+    if (!question && !(setting && settings)) {
+      throw std::invalid_argument("kind " + config.kind +
+                                  " has no methods; change its parameters in the deployment file "
+                                  "and apply that (quoin apply)");
+    }
+    reply.accepted(true);
+    if (!settings) return;
+    ParameterSettings asked;
+    for (const msg::ParameterSetting& parameter : request.parameters()) {
+      asked.push_back({parameter.name(), parameter.value()});
+    }
+    for (const ParameterSetting& in_force : settings(asked)) {
+      msg::ParameterSetting& parameter = reply.parameters().emplace_back();
+      parameter.name(in_force.name);
+      parameter.value(in_force.text);
+    }
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Source::Settings settings_;
+};
+
 class PublishingSource final : public ServiceActivity<Source> {
  public:
-  PublishingSource(Service& service, Outputs& outputs, const Positions& first)
+  PublishingSource(Service& service, Outputs& outputs, const Positions& first,
+                   SourceSettings& settings)
       : ServiceActivity<Source>(service),
+        settings_(settings),
         thread_(service.data_thread()),
         outputs_(outputs),
         next_index_(outputs.size(), 0),
@@ -43,6 +86,11 @@ class PublishingSource final : public ServiceActivity<Source> {
   bool publish(msg::Scan& scan) override { return publish_on(0, &scan, scan.header()); }
 
   [[nodiscard]] std::size_t readers() const override { return outputs_.front().output->matched(); }
+
+  bool answer_settings(Settings settings) override {
+    settings_.set(std::move(settings));
+    return true;
+  }
 
   [[nodiscard]] Participant& participant() override { return service_.process.participant; }
 
@@ -93,6 +141,7 @@ class PublishingSource final : public ServiceActivity<Source> {
     return trace.published();
   }
 
+  SourceSettings& settings_;
   DataThread thread_;
   Outputs& outputs_;
   std::vector<std::uint64_t> next_index_;   // by output
@@ -144,15 +193,10 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
   service.record.set_endpoint_report([&outputs](msg::ServiceStatus& status) {
     status.incompatible_qos(report_outputs(outputs, status));
   });
+  SourceSettings settings;
   const Service::Answering answering(
       service, succession, [&](const msg::ControlRequest& request, msg::ControlReply& reply) {
-        if (request.action() != msg::ControlAction::CONTROL_DESCRIBE) {
-          throw std::invalid_argument(
-              "kind " + service.config.kind +
-              " has no methods; change its parameters in the deployment file "
-              "and apply that (quoin apply)");
-        }
-        reply.accepted(true);
+        settings.answer(service.config, request, reply);
       });
   succession.on_request([&] {
     if (succession.asked()) service.stop.request();
@@ -163,7 +207,7 @@ int publish_all(Service& service, const KindInfo& kind, const PortTypes& types,
   std::string detail;
   if (const auto first = wait_for_begin(service, outputs, succession)) {
     service.record.set_state(msg::ServiceState::STATE_ACTIVE);
-    PublishingSource source(service, outputs, *first);
+    PublishingSource source(service, outputs, *first, settings);
     try {
       body(source);
       service.finished = !service.stop.requested();

@@ -42,6 +42,12 @@ class Source : public Activity {
     return publish_own(typeid(T), &message, message.header());
   }
 
+  /// Takes settings (none: a question) and returns those in force; throws ParameterError.
+  using Settings = std::function<ParameterSettings(const ParameterSettings&)>;
+  /// Has requests for other settings (`quoin set`) answered by `settings`, in another thread, until
+  /// the service ends. False when nobody can ask.
+  virtual bool answer_settings(Settings) { return false; }
+
   /// To read topics that no service of the deployment writes.
   [[nodiscard]] virtual Participant& participant() {
     throw std::logic_error("a source without DDS");

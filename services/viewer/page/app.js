@@ -9,6 +9,7 @@ import { Layers } from './layers.js';
 import { Picture, itemAt } from './draw.js';
 import { CanvasPainter, SvgPainter } from './painter.js';
 import { HealthPanel, LayerPanel, describe, detailTable, headingOf, make } from './panels.js';
+import { PlaybackBar } from './playback.js';
 import { answerOf } from './why.js';
 
 const $ = (id) => document.getElementById(id);
@@ -78,7 +79,7 @@ const connection = new Connection(scheme + location.host + '/' + location.search
     $('name').textContent = info.name;
     document.title = (info.name ? info.name + ' – ' : '') + 'Quoin';
   },
-  services() { $('why').hidden = !connection.services.has('explain'); },
+  services() { $('why').hidden = !connection.services.has('explain'); refresh(); },
   channel: (channel) => scene.addChannel(channel),
   message(id, time, bytes) {
     scene.receive(id, time, bytes);
@@ -242,6 +243,9 @@ let drawing = 0; // [ms] that all frames took
 // ---- what is written beside it ----
 
 const layerPanel = new LayerPanel($('layers'), layers, () => { state.dirty = true; });
+const playbackBar = new PlaybackBar(
+  { bar: $('playback'), pause: $('replay-pause'), step: $('replay-step'), speed: $('replay-speed'), where: $('replay-where') },
+  (request) => connection.call('playback', request).then(() => scene.problems.delete('replay'), (error) => scene.problems.set('replay', error.message)));
 const healthPanel = new HealthPanel($('services'), $('health-summary'));
 
 function setPill(kind, text) {
@@ -298,6 +302,7 @@ function refresh() {
   healthPanel.update(scene);
   $('notes').replaceChildren(...[...scene.problems].map(([name, text]) => make('li', {}, name + ': ' + text)));
   if (state.selected) showDetails(state.items.find((item) => sameItem(item, state.selected)));
+  playbackBar.update(scene.services, connection.services.has('playback'));
   setPressed('pause', state.at !== null);
   setPressed('follow', state.follow);
   setPressed('why', state.why);

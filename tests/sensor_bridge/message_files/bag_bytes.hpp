@@ -39,6 +39,22 @@ template <class T>
   return bytes + bytes_of(std::uint32_t{0});
 }
 
+/// nav_msgs/Odometry of ROS 1 at (1, 2), turned by 2 atan(1 / 2), with variances 4, 9 and 0.25.
+[[nodiscard]] inline std::string ros1_odometry(std::uint32_t seconds) {
+  std::string bytes = bytes_of(std::uint32_t{7}) + bytes_of(seconds) + bytes_of(std::uint32_t{0}) +
+                      with_length("odom") + with_length("base");
+  for (const double value : {1.0, 2.0, 0.3, 0.0, 0.0, 0.5, 1.0}) bytes += bytes_of(value);
+  const auto covariance = [&](double xx, double yy, double yaw) {
+    for (int i = 0; i < 36; ++i) {
+      bytes += bytes_of(i == 0 ? xx : i == 7 ? yy : i == 35 ? yaw : 0.0);
+    }
+  };
+  covariance(4.0, 9.0, 0.25);
+  for (const double value : {0.75, 0.0, 0.0, 0.0, 0.0, 0.125}) bytes += bytes_of(value);
+  covariance(1.0, 1.0, 1.0);
+  return bytes;
+}
+
 [[nodiscard]] inline std::string bag_connection(std::uint32_t id, const std::string& topic,
                                                 const std::string& type) {
   return bag_record({{"op", "\x07"}, {"conn", bytes_of(id)}, {"topic", topic}},

@@ -126,6 +126,33 @@ TEST(Carmen, AcceptsNumbersThatAreNotFinite) {
   EXPECT_FALSE(result.scans[0].stamp);
 }
 
+TEST(Carmen, OdometryLinesComeBetweenTheScans) {
+  const TemporaryFolder folder;
+  const auto odom = [](const char* stamp) {
+    return std::string("ODOM 1 2 0.5 0.75 0.125 0 ") + stamp + " host 11\n";
+  };
+  const auto scan = [](const char* stamp) {
+    return std::string("FLASER 1 1 1 2 0.5 3 4 0.25 ") + stamp + " host 13\n";
+  };
+  const std::string file = folder.write(
+      "a.log", odom("11.5") + scan("12") + odom("0") + odom("12.5") + "ODOM x\n" + odom("12.25") +
+                   odom("13") + scan("13") + "RAWLASER1 0 0 1 1 9 0 0 1 2 0 14 host 14\n");
+  const Result result = read(file);
+  EXPECT_EQ(result.error, "no error");
+  ASSERT_EQ(result.scans.size(), 3U);
+  const auto& first = result.scans[0].odometry;
+  ASSERT_EQ(first.size(), 2U);
+  EXPECT_EQ(first[0].stamp, 11.5);
+  EXPECT_EQ(first[0].pose.y, 2.0);
+  EXPECT_EQ(first[0].velocity, Eigen::Vector3d(0.75, 0.0, 0.125));
+  EXPECT_EQ(first[1].pose.y, 4.0) << "that of the scan";
+  const auto& second = result.scans[1].odometry;
+  ASSERT_EQ(second.size(), 2U) << "stamps that jump back, or are that of the scan, are left out";
+  EXPECT_EQ(second[0].stamp, 12.5);
+  EXPECT_THAT(result.scans[1].notes, ::testing::Contains(::testing::HasSubstr(file + ":5:6: ")));
+  EXPECT_TRUE(result.scans[2].odometry.empty());
+}
+
 struct BadLine {
   const char* name;
   const char* line;

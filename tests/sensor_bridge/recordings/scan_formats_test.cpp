@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "sensor_bridge/recordings/scan_files.hpp"
+#include "tests/sensor_bridge/message_files/bag_bytes.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace quoin::sensor_bridge {
@@ -290,6 +291,35 @@ TEST_F(ScanFormats, GeometryIsDeclaredForAnyFormat) {
   EXPECT_FALSE(std::isnan(scans[0].ranges[1]));
   parameters_.inverted = true;  // twice mirrored
   EXPECT_FLOAT_EQ(read_text("b.csv", "0,1\n0.5,1\n")[0].bearings[1], 1.0F);
+}
+
+TEST_F(ScanFormats, ABagHasOdometryBesideItsScans) {
+  const std::string turned = tests::ros1_odometry(3);
+  const std::string records = tests::bag_connection(0, "/scan", "sensor_msgs/LaserScan") +
+                              tests::bag_connection(1, "/odom", "nav_msgs/Odometry") +
+                              tests::bag_message(1, 1, turned) + tests::bag_message(1, 2, turned) +
+                              tests::bag_message(0, 3, tests::ros1_laser_scan(3, {1.0F})) +
+                              tests::bag_message(0, 4, tests::ros1_laser_scan(4, {1.0F}));
+  const auto file = folder_.write("a.bag", tests::bag(records, "none", records));
+  parameters_.odometry = true;
+  const auto scans = read(file);
+  ASSERT_THAT(scans, SizeIs(2));
+  ASSERT_THAT(scans[0].odometry, SizeIs(2));
+  EXPECT_THAT(scans[1].odometry, SizeIs(0));
+  const RecordedOdometry& odometry = scans[0].odometry[1];
+  EXPECT_EQ(odometry.epoch_stamp, 3'000'000'000);
+  EXPECT_EQ(odometry.frame, "odom");
+  EXPECT_EQ(odometry.child_frame, "base");
+  EXPECT_EQ(odometry.pose.y, 2.0);
+  EXPECT_NEAR(odometry.pose.theta, 2.0 * std::atan(0.5), 1e-12);
+  EXPECT_EQ(odometry.covariance.diagonal(), Eigen::Vector3d(4.0, 9.0, 0.25));
+  EXPECT_EQ(odometry.velocity, Eigen::Vector3d(0.75, 0.0, 0.125));
+
+  const std::string cut = records + tests::bag_message(1, 5, turned.substr(0, 200));
+  const auto damaged = folder_.write("b.bag", tests::bag(cut, "none", cut));
+  EXPECT_THROW(read(damaged), ScanFileError);
+  parameters_.odometry = false;
+  EXPECT_THAT(read(damaged)[0].odometry, SizeIs(0)) << "nobody asked for it";
 }
 
 TEST_F(ScanFormats, WhatCannotBeReadIsCalledByItsName) {

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensor_bridge/replay/replay_source.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -142,6 +146,165 @@ TEST(ReplaySource, PublishesOdometryWithTheStampsOfTheScans) {
   EXPECT_EQ(source.odometry[0].pose().y(), 4.0);
   EXPECT_EQ(source.odometry[0].pose().covariance_xx(), 0.0) << "not known";
   EXPECT_FALSE(source.odometry[0].velocity_known());
+}
+
+template <class T>
+T message_at(std::int64_t stamp) {
+  T message;
+  message.header().frame("laser");
+  message.header().stamp(stamp);
+  message.header().origins().resize(1);
+  message.header().origins()[0].parts(1);
+  message.header().trace().resize(2);
+  message.sensor_model().range_stddev(0.01);
+  return message;
+}
+
+/// Segments and lines of three scans, 100 ms apart, lines 1 ms after their segments; two topics
+/// have lines.
+void record_stages(const std::filesystem::path& file) {
+  mcap::Writer writer(file, {});
+  const std::uint16_t lines = writer.add_schema("quoin::msg::Lines", "omgidl", "...");
+  const std::uint16_t segments = writer.add_schema("quoin::msg::Segments", "omgidl", "...");
+  const std::uint16_t walls = writer.add_channel(segments, "t/walls/segments", "cdr");
+  const std::uint16_t wctls = writer.add_channel(lines, "t/wctls/lines", "cdr");
+  const std::uint16_t utls = writer.add_channel(lines, "t/utls/lines", "cdr");
+  const auto write = [&](std::uint16_t channel, const auto& message, std::int64_t time) {
+    topics::RawMessage raw;
+    topics::encode(message, raw);
+    const auto at = static_cast<std::uint64_t>(time);
+    writer.write(
+        {channel, 0, at, at, {{reinterpret_cast<const char*>(raw.cdr.data()), raw.cdr.size()}}});
+  };
+  for (std::int64_t scan = 1; scan <= 3; ++scan) {
+    const std::int64_t stamp = scan * 100'000'000;
+    write(walls, message_at<msg::Segments>(stamp), stamp + 5'000'000);
+    auto found = message_at<msg::Lines>(stamp);
+    found.covariance_mode("propagated");
+    write(wctls, found, stamp + 6'000'000);
+    found.covariance_mode("as_published");
+    write(utls, found, stamp + 6'000'000);
+  }
+  writer.finish();
+}
+
+TEST(ReplaySource, PublishesAnyStageInItsOrderAndPace) {
+  const TemporaryFolder folder;
+  record_stages(folder.path() / "a.mcap");
+  RecordingSource source;
+  open_replay(source_config({{"path", "a.mcap"},
+                             {"messages", "segments, lines"},
+                             {"topic", "t/walls/segments, t/utls/lines"},
+                             {"stamps", "recorded"}}),
+              folder.path())(source);
+  ASSERT_EQ(source.segments.size(), 3U);
+  ASSERT_EQ(source.lines.size(), 3U);
+  EXPECT_TRUE(source.scans.empty());
+  auto expected = message_at<msg::Lines>(300'000'000);
+  expected.covariance_mode("as_published");
+  EXPECT_EQ(source.lines[2], expected);
+  ASSERT_EQ(source.deadlines.size(), 6U);
+  EXPECT_EQ(source.deadlines[1] - source.deadlines[0], std::chrono::milliseconds(1));
+  EXPECT_EQ(source.deadlines[4] - source.deadlines[0], std::chrono::milliseconds(200));
+}
+
+TEST(ReplaySource, StagesOfOneScanKeepOneStamp) {
+  const TemporaryFolder folder;
+  record_stages(folder.path() / "a.mcap");
+  RecordingSource source;
+  open_replay(source_config({{"path", "a.mcap"},
+                             {"messages", "segments,lines"},
+                             {"topic", "t/walls/segments,t/wctls/lines"}}),
+              folder.path())(source);
+  ASSERT_EQ(source.lines.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_GT(source.lines[i].header().stamp(), 1'700'000'000'000'000'000) << "that of now";
+    EXPECT_EQ(source.lines[i].header().stamp(), source.segments[i].header().stamp());
+  }
+  EXPECT_NE(source.lines[0].header().stamp(), source.lines[1].header().stamp());
+}
+
+TEST(ReplaySource, StagesThatAreNotThereAreNamed) {
+  const TemporaryFolder folder;
+  record_stages(folder.path() / "a.mcap");
+  const auto error = [&](const ParameterSettings& settings) {
+    ParameterSettings all{{"path", "a.mcap"}};
+    all.insert(all.end(), settings.begin(), settings.end());
+    try {
+      (void)open_replay(source_config(all), folder.path());
+      return std::string("no error");
+    } catch (const std::exception& failure) {
+      return std::string(failure.what());
+    }
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(error({{"messages", "lines"}}), HasSubstr("several topics hold messages 'lines'"));
+  EXPECT_THAT(error({{"messages", "corners"}}), HasSubstr("no topic holds messages 'corners'"));
+  EXPECT_THAT(error({{"messages", "lines"}, {"topic", "t/x/lines"}}),
+              HasSubstr("there is no topic 't/x/lines'; its topics are t/utls/lines"));
+  EXPECT_THAT(error({{"messages", "lins"}}), HasSubstr("did you mean 'lines'?"));
+  EXPECT_THAT(error({{"messages", "odometry"}}), HasSubstr("odometry: true"));
+  EXPECT_THAT(error({{"messages", " , "}}), HasSubstr("names no type"));
+}
+
+/// Somebody who asks while the replay runs: each request when so many messages were published.
+class AskedSource final : public RecordingSource {
+ public:
+  using Request = std::pair<std::size_t, ParameterSettings>;
+  explicit AskedSource(std::vector<Request> requests) : requests_(std::move(requests)) {}
+
+  bool answer_settings(Settings settings) override {
+    settings_ = std::move(settings);
+    return true;
+  }
+  bool wait_until(std::chrono::steady_clock::time_point time) override {
+    ++waits_;
+    if (waits_ - at_last_ >= 5 && next_ < requests_.size() &&
+        scans.size() == requests_[next_].first) {
+      answers.push_back(settings_(requests_[next_++].second));
+      at_last_ = waits_;
+    }
+    std::this_thread::sleep_until(
+        std::min(time, std::chrono::steady_clock::now() + std::chrono::milliseconds(2)));
+    return waits_ < 20000;
+  }
+
+  std::vector<ParameterSettings> answers;
+
+ private:
+  Settings settings_;
+  std::vector<Request> requests_;
+  std::size_t next_ = 0;
+  int waits_ = 0;
+  int at_last_ = 0;
+};
+
+TEST(ReplaySource, IsPausedSteppedAndSpedUpWhileItRuns) {
+  const TemporaryFolder folder;
+  std::string log;
+  for (int i = 0; i < 8; ++i) log += flaser("1 1", std::to_string(7 + i));
+  folder.write("a.log", log);
+  AskedSource source({{0, {{"step", "2"}}},
+                      {2, {{"step", "1"}}},
+                      {3, {{"speed", "0"}}},
+                      {3, {{"paused", "false"}}}});
+  const auto body =
+      open_replay(source_config({{"path", "a.log"}, {"paused", "true"}}), folder.path());
+  body(source);
+  EXPECT_EQ(source.scans.size(), 8U);
+  ASSERT_EQ(source.answers.size(), 4U) << "each came while it waited for it";
+  EXPECT_EQ(source.answers[0], (ParameterSettings{{"paused", "true"}, {"speed", "1"}}));
+  EXPECT_EQ(source.answers[3], (ParameterSettings{{"paused", "false"}, {"speed", "0"}}));
+  EXPECT_THAT(source.diagnostics["Progress"], ::testing::HasSubstr("%"));
+}
+
+TEST(ReplaySource, RefusesSettingsThatItDoesNotHave) {
+  const TemporaryFolder folder;
+  folder.write("a.log", flaser("1 1", "7"));
+  AskedSource source({{0, {{"pace", "2"}}}});
+  const auto body =
+      open_replay(source_config({{"path", "a.log"}, {"paused", "true"}}), folder.path());
+  EXPECT_THROW(body(source), ParameterError);
 }
 
 TEST(ReplaySource, WarnsWhereThereIsNoOdometry) {
