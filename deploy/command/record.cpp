@@ -16,6 +16,7 @@
 #include "deploy/orchestration/signals.hpp"
 #include "sensor_bridge/message_files/mcap_writer.hpp"
 #include "services/keys/key_files.hpp"
+#include "services/recorder/heartbeat_feed.hpp"
 #include "services/recorder/recorder.hpp"
 #include "services/runtime/dds/endpoints.hpp"
 #include "services/topics/header.hpp"
@@ -110,8 +111,11 @@ int record(const Deployment& deployment, const RecordOptions& options) {
     config.observes.push_back(topic.described.topic);  // who begins to write waits for us
   }
   Signals signals;
-  Recorder recorder(options.parameters.path, options.parameters, described, run_facts(deployment));
+  Recorder recorder(options.parameters.path, options.parameters, described, run_facts(deployment),
+                    status_topic(deployment.name_space));
   runtime::Participant participant(config);
+  std::optional<HeartbeatFeed> heartbeats;
+  heartbeats.emplace(participant, deployment.name_space, recorder);
   std::vector<std::unique_ptr<runtime::RawReader>> readers;
   runtime::WaitSet wait_set;
   for (const ObservedTopic& topic : topics) {
@@ -146,6 +150,7 @@ int record(const Deployment& deployment, const RecordOptions& options) {
     if (terminal) std::cerr << '\r' << progress_text(figures, elapsed) << "\x1b[K" << std::flush;
   }
   if (terminal) std::cerr << "\r\x1b[K";
+  heartbeats.reset();
   recorder.finish();
   return report(options, recorder, stopped);
 }

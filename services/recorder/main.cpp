@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/deployment/graph.hpp"
+#include "services/recorder/heartbeat_feed.hpp"
 #include "services/recorder/kind.hpp"
 #include "services/recorder/recorder.hpp"
 #include "services/runtime/process/run_node.hpp"
@@ -24,9 +26,9 @@ runtime::Component::Body open(const Deployment& deployment, const ServiceConfig&
     topics.push_back({input.output.topic, input.writer->name,
                       topics::find_topic_type(input.output.type), input.output.qos});
   }
-  const auto recorder =
-      std::make_shared<Recorder>(deployment.file.parent_path() / parameters.path, parameters,
-                                 std::move(topics), run_facts(deployment));
+  const auto recorder = std::make_shared<Recorder>(
+      deployment.file.parent_path() / parameters.path, parameters, std::move(topics),
+      run_facts(deployment), status_topic(deployment.name_space));
   const auto handle = [recorder, numbers = std::move(numbers)](runtime::Work& work) {
     const auto& message = work.input<runtime::ObservedMessage>();
     recorder->record(numbers.at(message.topic), message.raw, message.header);
@@ -37,8 +39,12 @@ runtime::Component::Body open(const Deployment& deployment, const ServiceConfig&
       [handle](const std::string&, const ParameterSettings&) {
         return runtime::Method{.handle = handle};
       }));
-  return [recorder, node, body = node->open(deployment, config)](runtime::Service& service) {
+  return [recorder, node, body = node->open(deployment, config),
+          name_space = deployment.name_space](runtime::Service& service) {
+    std::optional<HeartbeatFeed> heartbeats;
+    heartbeats.emplace(service.process.participant, name_space, *recorder);
     const int code = body(service);
+    heartbeats.reset();
     recorder->finish();
     return code;
   };

@@ -18,11 +18,18 @@ using sensor_bridge::mcap::WriteError;
 // What is written is flushed so often: no more than that is lost when the process is killed.
 constexpr std::chrono::milliseconds flush_period{500};
 
+std::vector<RecordedTopic> with_heartbeats(std::vector<RecordedTopic> topics,
+                                           const std::string& heartbeats) {
+  if (!heartbeats.empty()) topics.push_back({heartbeats, "", &heartbeat_type, "state"});
+  return topics;
+}
+
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecorderParameters& parameters,
-                   const std::vector<RecordedTopic>& topics, RunFacts facts)
-    : recording_(path, parameters, topics, std::move(facts)) {
+                   const std::vector<RecordedTopic>& topics, RunFacts facts,
+                   const std::string& heartbeats)
+    : recording_(path, parameters, with_heartbeats(topics, heartbeats), std::move(facts)) {
   for (const RecordedTopic& topic : topics)
     accounts_.push_back({topic.topic, runtime::ScanAccounting(), 0, 0});
   figures_.file = recording_.file().string();
@@ -40,29 +47,46 @@ void Recorder::record(std::size_t topic, const topics::RawMessage& raw, const ms
   if (account.accounting.verdict() != runtime::ScanAccounting::Verdict::received) return;
   account.missed += missed;
 
-  const std::lock_guard lock(mutex_);
-  figures_.missed += missed;
-  if (!figures_.stopped.empty() || waiting_ + raw.cdr.size() > most_waiting) {
-    ++figures_.dropped;
-    return;
+  {
+    const std::lock_guard lock(mutex_);
+    figures_.missed += missed;
   }
   MessageToRecord message;
+  message.frame = header.frame();
+  message.stamp = header.stamp();
+  message.sequence_number = topics::sequence_number(header);
+  if (enqueue(topic, raw, std::move(message))) ++account.recorded;
+}
+
+void Recorder::record_heartbeat(const msg::ServiceStatus& status) {
+  topics::RawMessage raw;
+  topics::encode(status, raw);
+  raw.published = status.stamp();
+  MessageToRecord message;
+  message.stamp = status.stamp();
+  (void)enqueue(accounts_.size(), raw, std::move(message));
+}
+
+/// False when there is no room.
+bool Recorder::enqueue(std::size_t topic, const topics::RawMessage& raw, MessageToRecord message) {
+  const std::lock_guard lock(mutex_);
+  if (!figures_.stopped.empty() || waiting_ + raw.cdr.size() > most_waiting) {
+    ++figures_.dropped;
+    return false;
+  }
   if (!spare_.empty()) {
     message.cdr = std::move(spare_.back());
     spare_.pop_back();
   }
   message.topic = topic;
   message.cdr.assign(raw.cdr.begin(), raw.cdr.end());
-  message.frame = header.frame();
-  message.stamp = header.stamp();
-  message.sequence_number = topics::sequence_number(header);
   message.published = raw.published;
   message.received = raw.received == 0 ? runtime::now_ns() : raw.received;
   waiting_ += message.cdr.size();
-  ++account.recorded;
   const bool first = queue_.empty();
   queue_.push_back(std::move(message));
   if (first) changed_.notify_one();
+  return true;
 }
 
 void Recorder::run() {

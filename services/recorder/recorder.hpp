@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <idl/Status.h>
 #include <map>
 #include <mutex>
 #include <string>
@@ -38,9 +39,10 @@ class Recorder {
   /// [byte] of messages that wait for the disk at most.
   static constexpr std::size_t most_waiting = std::size_t{64} << 20U;
 
-  /// As Recording.
+  /// As Recording. `heartbeats`: the topic of heartbeats, where those are recorded, too.
   Recorder(const std::filesystem::path& path, const RecorderParameters& parameters,
-           const std::vector<RecordedTopic>& topics, RunFacts facts);
+           const std::vector<RecordedTopic>& topics, RunFacts facts,
+           const std::string& heartbeats = "");
   /// Finishes, as far as that was not done.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -49,6 +51,8 @@ class Recorder {
   /// A message of the topic of that index; one that came before is left out. Copies its bytes, and
   /// does not wait. One thread calls it.
   void record(std::size_t topic, const topics::RawMessage& raw, const msg::Header& header);
+  /// Any one thread may call it. What does not fit is left out, as everything else.
+  void record_heartbeat(const msg::ServiceStatus& status);
   /// Writes what waits, and closes the file. Nothing may be recorded any more.
   void finish();
 
@@ -66,6 +70,8 @@ class Recorder {
     std::uint64_t recorded = 0;
   };
 
+  [[nodiscard]] bool enqueue(std::size_t topic, const topics::RawMessage& raw,
+                             MessageToRecord message);
   void run();
   void write(std::deque<MessageToRecord>& messages);
   void stop_recording(const std::string& why);

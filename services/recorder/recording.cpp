@@ -8,6 +8,7 @@
 #include <charconv>
 #include <ctime>
 #include <idl/LineMap.h>
+#include <idl/Status.h>
 #include <system_error>
 
 #include "services/topics/cdr_codec.hpp"
@@ -87,7 +88,9 @@ Recording::Recording(const fs::path& path, const RecorderParameters& parameters,
     Topic& added =
         topics_.emplace_back(Topic{std::move(topic), std::nullopt, topics::Views(""), {}, {}});
     if (parameters_.content == RecordedContent::cdr) continue;
-    added.encoder.emplace(added.described.type->dds_type);
+    if (added.described.type != &heartbeat_type) {
+      added.encoder.emplace(added.described.type->dds_type);
+    }
     added.views = topics::Views(added.described.type->name);
   }
   std::error_code ignored;
@@ -138,6 +141,12 @@ void Recording::write(const MessageToRecord& message) {
 
 /// Of the instance that the message is of: late readers get the newest of each.
 std::string Recording::key_of(const Topic& topic, const MessageToRecord& message) {
+  if (topic.described.type == &heartbeat_type) {
+    msg::ServiceStatus status;
+    (void)topics::decode(topics::cdr_codec<msg::ServiceStatus>(), message.cdr.data(),
+                         message.cdr.size(), &status);
+    return status.service();
+  }
   if (topic.described.type->name != "line_map") return "";
   msg::LineMap map;
   if (!topics::decode(topics::cdr_codec<msg::LineMap>(), message.cdr.data(), message.cdr.size(),
@@ -190,15 +199,16 @@ void Recording::write_to_file(Topic& topic, const MessageToRecord& message, std:
     write(channels.cdr, described.topic, described.type->dds_type, "cdr",
           {reinterpret_cast<const char*>(message.cdr.data()), message.cdr.size()});
   }
-  if (!topic.encoder) return;
-  buffer_.clear();
-  try {
-    topic.encoder->encode(message.cdr, buffer_);
-  } catch (const topics::CdrError&) {
-    return;  // no message of its type: the CDR keeps what came
+  if (topic.encoder) {
+    buffer_.clear();
+    try {
+      topic.encoder->encode(message.cdr, buffer_);
+    } catch (const topics::CdrError&) {
+      return;  // no message of its type: the CDR keeps what came
+    }
+    write(channels.protobuf, described.topic + "/protobuf",
+          topics::protobuf_name(described.type->dds_type), "protobuf", buffer_);
   }
-  write(channels.protobuf, described.topic + "/protobuf",
-        topics::protobuf_name(described.type->dds_type), "protobuf", buffer_);
   if (topic.views.list().empty() || !topic.views.read(message.cdr)) return;
   write_frame(message, log_time);
   channels.views.resize(topic.views.list().size(), 0);

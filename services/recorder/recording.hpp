@@ -38,6 +38,10 @@ struct RecordedTopic {
   std::string qos;  ///< preset
 };
 
+/// Heartbeats are recorded like the types of the table, but have no Protobuf of ours.
+inline constexpr topics::TopicType heartbeat_type{"status", "quoin::msg::ServiceStatus", "state",
+                                                  "Status.idl"};
+
 /// A message to record.
 struct MessageToRecord {
   std::size_t topic = 0;  ///< index of the topic

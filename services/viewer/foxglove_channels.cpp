@@ -52,7 +52,7 @@ void FoxgloveChannels::add(const std::string& topic, const std::string& type) {
         hub_.add_channel(protobuf_channel(topic + "/" + std::string(view.name), view.schema)));
   }
   topics_.insert_or_assign(topic, std::move(made));
-  if (transforms_ == 0) {
+  if (transforms_ == 0 && type != "status") {
     transforms_ = hub_.add_channel(
         protobuf_channel(hub_.name() + "/transforms", topics::frame_transform_schema));
   }
@@ -70,7 +70,7 @@ void FoxgloveChannels::publish(const std::string& topic, std::span<const std::by
     read = true;
     std::string bytes;
     if (!each.views.append(view, bytes)) continue;
-    if (hub_.wanted(transforms_)) {
+    if (!frame.empty() && hub_.wanted(transforms_)) {
       hub_.publish(transforms_,
                    payload_of(topics::frame_transform(root_frame, frame, stamp, {}), stamp));
     }

@@ -20,10 +20,10 @@ class FoxgloveChannels {
  public:
   explicit FoxgloveChannels(Hub& hub) : hub_(hub) {}
 
-  /// Adds the channels of a topic, <topic>/<view>, and one of transforms for all. `type`: of the
-  /// table of topic types.
+  /// Adds the channels of a topic, <topic>/<view>, and one of transforms for all that have frames.
+  /// `type`: of the table of topic types, or "status" for heartbeats, which have none.
   void add(const std::string& topic, const std::string& type);
-  /// A message of the topic, and its frame.
+  /// A message of the topic, and its frame if it has one.
   void publish(const std::string& topic, std::span<const std::byte> cdr, const std::string& frame,
                std::int64_t stamp);
 

@@ -6,8 +6,12 @@
 #include <functional>
 #include <idl/LineMap.h>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
+#include "core/parameters/parameter.hpp"
 #include "services/topics/topic_types.hpp"
 #include "services/viewer/playback_remote.hpp"
 
@@ -32,6 +36,37 @@ std::uint64_t key_of(const std::string& type, const topics::RawMessage& raw) {
   return type == "line_map" && topics::decode(raw, map) ? map.part() : 0;
 }
 
+/// Where a sensor is on its robot, as the services are told that follow its pose.
+struct SensorMounting {
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+
+  static constexpr auto fields() {
+    using P = SensorMounting;
+    return std::tuple{field(&P::x, "mounting_x", "m", -100.0, 100.0, ""),
+                      field(&P::y, "mounting_y", "m", -100.0, 100.0, ""),
+                      field(&P::yaw, "mounting_yaw", "rad", -6.2832, 6.2832, "")};
+  }
+};
+
+/// JSON: {service: {"x": .., "y": .., "yaw": ..}} of the services of which the file says it.
+std::string mountings_of(const Deployment& deployment) {
+  auto mountings = nlohmann::json::object();
+  for (const ServiceConfig& service : deployment.services) {
+    ParameterSettings settings;
+    for (const ParameterSetting& setting : service.parameters) {
+      if (setting.name.starts_with("mounting_") && setting.name != "mounting_z") {
+        settings.push_back(setting);
+      }
+    }
+    if (settings.empty()) continue;
+    const auto mounting = make_parameters<SensorMounting>(settings);
+    mountings[service.name] = {{"x", mounting.x}, {"y", mounting.y}, {"yaw", mounting.yaw}};
+  }
+  return mountings.dump();
+}
+
 }  // namespace
 
 LiveView::LiveView(const Deployment& deployment, const ViewerParameters& parameters,
@@ -40,10 +75,16 @@ LiveView::LiveView(const Deployment& deployment, const ViewerParameters& paramet
       explainer_(deployment),
       heartbeats_(hub_.add_channel(cdr_channel(status_topic(deployment.name_space),
                                                "quoin::msg::ServiceStatus", "Status.idl"))),
+      heartbeat_topic_(status_topic(deployment.name_space)),
       views_(hub_),
+      heartbeat_views_(hub_),
       server_(server_settings(parameters, base), hub_, std::move(log)) {
   hub_.add_service("explain",
                    [this](const std::string& request) { return explainer_.answer(request); });
+  hub_.add_service("mountings", [mountings = mountings_of(deployment)](const std::string&) {
+    return mountings;
+  });
+  heartbeat_views_.add(heartbeat_topic_, "status");
   if (!controllable_replays(deployment).empty()) {
     hub_.add_service("playback", [this](const std::string& request) {
       const std::lock_guard lock(playback_mutex_);
@@ -83,6 +124,7 @@ void LiveView::publish(const msg::ServiceStatus& heartbeat) {
   topics::encode(heartbeat, *raw);
   hub_.publish(heartbeats_, {raw, raw->cdr, system_now()},
                std::hash<std::string>{}(heartbeat.service()));
+  heartbeat_views_.publish(heartbeat_topic_, raw->cdr, "", heartbeat.stamp());
 }
 
 }  // namespace quoin::viewer

@@ -47,7 +47,9 @@ class LiveView {
   Hub hub_;
   Explainer explainer_;
   const std::uint32_t heartbeats_;  // channel
+  const std::string heartbeat_topic_;
   FoxgloveChannels views_;
+  FoxgloveChannels heartbeat_views_;               // heartbeats come by another thread
   std::map<std::string, std::uint32_t> channels_;  // by topic
   std::mutex playback_mutex_;
   Hub::Service playback_;

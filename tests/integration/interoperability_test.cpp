@@ -5,7 +5,9 @@
 // types made of our IDL files by Cyclone's own compiler. It knows nothing of Quoin's code.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <idl/Circles.h>
 #include <idl/Corners.h>
 #include <idl/Lines.h>
@@ -18,9 +20,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sensor_bridge/recordings/scan_files.hpp"
 #include "services/topics/header.hpp"
 #include "services/topics/message_json.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace quoin {
 namespace {
@@ -185,6 +189,38 @@ TEST_F(Interoperability, AScanOfCycloneBecomesCorners) {
     ASSERT_EQ(message.header().trace().size(), 4U);
     EXPECT_EQ(message.header().trace()[0].service(), "front");
     EXPECT_EQ(message.header().trace()[0].index(), topics::sequence_number(message.header()));
+  }
+}
+
+TEST(Bags, OfRos1OwnLibraryAreReadWithTheirOdometry) {
+  const std::filesystem::path python = "/usr/bin/python3";  // Debian's, which has the library
+  const std::filesystem::path script = QUOIN_INTEROPERABILITY_DIR "/ros1_bag.py";
+  const tests::TemporaryFolder folder;
+  for (const std::string compression : {"none", "bz2", "lz4"}) {
+    const auto file = folder.path() / (compression + ".bag");
+    Process writer(python.string(), {script.string(), file.string(), compression}, folder.path());
+    const auto code = writer.wait(60s);
+    if (code != 0 && writer.errors().find("ModuleNotFoundError") != std::string::npos) {
+      GTEST_SKIP() << "no python3-rosbag; tests/packages.txt names its packages";
+    }
+    ASSERT_EQ(code, 0) << writer.errors();
+    sensor_bridge::ReplayParameters parameters;
+    parameters.odometry = true;
+    sensor_bridge::ScanFiles files(file, parameters);
+    sensor_bridge::RecordedScan scan;
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(files.next(scan)) << compression;
+      EXPECT_EQ(scan.epoch_stamp, 1'600'000'000'250'000'000 + i * std::int64_t{1'000'000'000});
+      EXPECT_THAT(scan.ranges, testing::ElementsAre(1.0F + static_cast<float>(i), 2.0F, 3.0F,
+                                                    INFINITY, 3.0F, 2.0F, 1.0F));
+      EXPECT_FLOAT_EQ(scan.bearings.back(), 1.5F);
+      EXPECT_EQ(scan.qualities.size(), 7U);
+      ASSERT_EQ(scan.odometry.size(), 1U);
+      EXPECT_EQ(scan.odometry[0].pose.x, 0.5 * i);
+      EXPECT_EQ(scan.odometry[0].covariance(0, 0), 0.01);
+      EXPECT_EQ(scan.odometry[0].child_frame, "base_footprint");
+    }
+    EXPECT_FALSE(files.next(scan));
   }
 }
 

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/integration/harness/deployment.hpp"
+#include "tests/integration/harness/keys.hpp"
 
 namespace quoin {
 namespace {
@@ -142,6 +144,67 @@ TEST(Viewer, FoxglovesOwnClientGetsEveryTopicInBothProtocols) {
       EXPECT_GT(seen["messages"][name + topic]["count"], 2) << topic;
     }
   }
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(30s), 0) << up.errors();
+}
+
+TEST(Viewer, BehindClosedDoorsItShowsEverythingAndAsksNobody) {
+  const TestDeployment deployment(services, "security: {keys: keys}\n");
+  tests::make_keys(deployment);
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  std::string url = address(up);
+  ASSERT_THAT(url, StartsWith("http://127.0.0.1:")) << up.errors();
+  url.replace(0, 4, "ws");
+  auto foxglove = client("ws_protocol.mjs", {url, "4", "foxglove.sdk.v1"}, deployment);
+  if (!foxglove) GTEST_SKIP() << "no node or tests/npm/node_modules (npm install there)";
+  ASSERT_EQ(foxglove->wait(30s), 0) << foxglove->errors();
+  const json seen = json::parse(foxglove->output());
+  const std::string name = deployment.deployment().name_space;
+  for (const char* topic : {"/front/scan", "/wctls_corners/corners", "/status"}) {
+    EXPECT_GT(seen["messages"][name + topic]["count"], 2) << topic;
+  }
+  up.signal(SIGINT);
+  EXPECT_EQ(up.wait(30s), 0) << up.errors();
+}
+
+TEST(Viewer, AReplayIsSteppedByTheCommandAndByThePage) {
+  const TestDeployment deployment(R"(
+  - {name: tape, kind: replay, parameters: {path: scans.csv, loop: true, paused: true, speed: 0}}
+  - {name: walls, kind: segmentation, input: tape}
+  - {name: page, kind: viewer, inputs: all, parameters: {port: 0}}
+)");
+  deployment.directory().write("scans.csv", "bearing,range\n0,1\n0.1,1\n");
+  runtime::Participant participant(deployment.participant("test"));
+  tests::StatusRecorder status(participant, deployment);
+  Process up = deployment.quoin({"up", "FILE", "--quiet"});
+  std::string url = address(up);
+  ASSERT_THAT(url, StartsWith("http://127.0.0.1:")) << up.errors();
+  url.replace(0, 4, "ws");
+  const auto published = [&](std::uint64_t count) {
+    return status.wait_for("tape", [&](const msg::ServiceStatus& heartbeat) {
+      return heartbeat.published() == count && heartbeat.state() == msg::ServiceState::STATE_ACTIVE;
+    });
+  };
+  EXPECT_TRUE(published(0)) << "it begins paused";
+  Process stepped = deployment.quoin({"playback", "step", "tape", "3", "--deployment", "FILE"});
+  ASSERT_EQ(stepped.wait(20s), 0) << stepped.errors();
+  EXPECT_THAT(stepped.output(), StartsWith("tape: paused=true speed=0"));
+  EXPECT_TRUE(published(3));
+  Process wrong = deployment.quoin({"set", "tape", "pace=3", "--deployment", "FILE"});
+  EXPECT_EQ(wrong.wait(20s), 2);
+  EXPECT_THAT(wrong.errors(), HasSubstr("pace"));
+
+  auto page = client("service_call.mjs",
+                     {url, "playback", R"({"step": 2})", "playback",
+                      R"({"step": 1, "service": "walls"})", "playback", R"({"stop": true})"},
+                     deployment);
+  if (!page) GTEST_SKIP() << "no node or tests/npm/node_modules (npm install there)";
+  ASSERT_EQ(page->wait(30s), 0) << page->errors();
+  const json answers = json::parse(page->output())["answers"];
+  EXPECT_EQ(answers[0], json({{"asked", {"tape"}}}));
+  EXPECT_THAT(answers[1].get<std::string>(), HasSubstr("'walls' is no replay"));
+  EXPECT_THAT(answers[2].get<std::string>(), HasSubstr("neither paused, step nor speed"));
+  EXPECT_TRUE(published(5));
   up.signal(SIGINT);
   EXPECT_EQ(up.wait(30s), 0) << up.errors();
 }

@@ -84,4 +84,27 @@ bool show_line_map(const msg::LineMap& message, foxglove::SceneUpdate& out) {
   return true;
 }
 
+bool show_status(const msg::ServiceStatus& message, foxglove::Log& out) {
+  using enum msg::ServiceState;
+  const msg::ServiceState state = message.state();
+  std::string text;
+  foxglove::Log::Level level = foxglove::Log::INFO;
+  if (state == STATE_ACTIVE) {
+    if (message.detail().empty()) return false;
+    level = foxglove::Log::WARNING;
+  } else {
+    text = state == STATE_FAILED     ? "failed"
+           : state == STATE_STOPPED  ? "stopped"
+           : state == STATE_FINISHED ? "finished"
+                                     : "starting";
+    if (state == STATE_FAILED) level = foxglove::Log::ERROR;
+  }
+  if (!message.detail().empty()) text += (text.empty() ? "" : ": ") + message.detail();
+  set_time(message.stamp(), *out.mutable_timestamp());
+  out.set_level(level);
+  out.set_name(message.service());
+  out.set_message(text);
+  return true;
+}
+
 }  // namespace quoin::topics

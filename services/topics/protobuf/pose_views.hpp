@@ -6,6 +6,7 @@
 #include <idl/LineMap.h>
 #include <idl/Odometry.h>
 #include <idl/Pose.h>
+#include <idl/Status.h>
 
 namespace quoin::topics {
 
@@ -18,5 +19,8 @@ bool show_pose_frame(const msg::Pose& message, foxglove::FrameTransform& out);
 bool show_pose_ellipse(const msg::Pose& message, foxglove::SceneUpdate& out);
 /// The walls of a part of the map, which take the place of those that the part had before.
 bool show_line_map(const msg::LineMap& message, foxglove::SceneUpdate& out);
+
+/// What a service says of itself in its heartbeat. Nothing while all is well.
+bool show_status(const msg::ServiceStatus& message, foxglove::Log& out);
 
 }  // namespace quoin::topics

@@ -11,6 +11,7 @@
 #include <idl/Pose.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
+#include <idl/Status.h>
 
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/protobuf/feature_views.hpp"
@@ -60,6 +61,9 @@ constexpr View pose_views[] = {
 constexpr View line_map_views[] = {
     {"scene", "foxglove.SceneUpdate", append<msg::LineMap, foxglove::SceneUpdate, show_line_map>}};
 
+constexpr View status_views[] = {
+    {"log", "foxglove.Log", append<msg::ServiceStatus, foxglove::Log, show_status>}};
+
 constexpr Row table[] = {{"scan", cdr_codec<msg::Scan>, scan_views},
                          {"segments", cdr_codec<msg::Segments>, segments_views},
                          {"lines", cdr_codec<msg::Lines>, lines_views},
@@ -67,7 +71,8 @@ constexpr Row table[] = {{"scan", cdr_codec<msg::Scan>, scan_views},
                          {"circles", cdr_codec<msg::Circles>, circles_views},
                          {"odometry", cdr_codec<msg::Odometry>, odometry_views},
                          {"pose", cdr_codec<msg::Pose>, pose_views},
-                         {"line_map", cdr_codec<msg::LineMap>, line_map_views}};
+                         {"line_map", cdr_codec<msg::LineMap>, line_map_views},
+                         {"status", cdr_codec<msg::ServiceStatus>, status_views}};
 
 }  // namespace
 

@@ -34,6 +34,7 @@ const state = {
   pin: null,
   dirty: true,
   items: [],
+  mountings: {},     // of sensors, by the service that follows the robot
 };
 
 // ---- theme ----
@@ -79,7 +80,11 @@ const connection = new Connection(scheme + location.host + '/' + location.search
     $('name').textContent = info.name;
     document.title = (info.name ? info.name + ' – ' : '') + 'Quoin';
   },
-  services() { $('why').hidden = !connection.services.has('explain'); refresh(); },
+  services() {
+    $('why').hidden = !connection.services.has('explain');
+    if (connection.services.has('mountings')) connection.call('mountings', {}).then((mountings) => { state.mountings = mountings; state.dirty = true; }, () => {});
+    refresh();
+  },
   channel: (channel) => scene.addChannel(channel),
   message(id, time, bytes) {
     scene.receive(id, time, bytes);
@@ -99,6 +104,13 @@ function poseAt(topic, stamp) {
   if (!pose || !Number.isFinite(pose.x)) return null;
   return { x: pose.x, y: pose.y, yaw: pose.theta, xx: pose.covariance_xx, xy: pose.covariance_xy, yy: pose.covariance_yy, value };
 }
+// Of the pose of a robot that of its sensor, where the deployment says how that is mounted.
+function sensorOf(pose, service) {
+  const mounting = state.mountings[service] ?? Object.values(state.mountings)[0];
+  if (!mounting || scene.list('scan').some((topic) => topic.entries.at(-1)?.header.frame === pose.value.child_frame)) return pose;
+  const [c, s] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
+  return { ...pose, x: pose.x + c * mounting.x - s * mounting.y, y: pose.y + s * mounting.x + c * mounting.y, yaw: pose.yaw + mounting.yaw };
+}
 // Where the sensor is: in the map, or by its wheels where nobody knows more and that is shown.
 function sensorPose(stamp) {
   if (stamp === null) return null;
@@ -107,7 +119,7 @@ function sensorPose(stamp) {
   const known = [...layers.of('pose').sort((a, b) => stages(b) - stages(a)), ...layers.of('odometry').filter((layer) => layer.visible)];
   for (const layer of known) {
     const pose = poseAt(layer.topic, stamp);
-    if (pose) return { layer, pose };
+    if (pose) return { layer, pose: sensorOf(pose, layer.topic.service), robot: pose };
   }
   return null;
 }
@@ -147,7 +159,7 @@ function draw(painter, view) {
     if (layer.kind === 'circles') picture.circles(layer, value);
     if (layer.kind === 'corners') picture.corners(layer, value);
   }
-  if (pose && pose.layer.visible) picture.poseEllipse(pose.layer, pose.pose, pose.pose.value);
+  if (pose && pose.layer.visible) picture.poseEllipse(pose.layer, pose.robot, pose.robot.value);
   picture.sensor();
   if (state.pin) picture.pin(state.pin.x, state.pin.y);
   return picture;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
+#include <idl/Status.h>
 #include <map>
 #include <optional>
 #include <string>
@@ -104,6 +105,31 @@ TEST_F(RecorderTest, KeepsTheBytesAndTimes) {
   EXPECT_EQ(recorded.schema->name, "quoin::msg::Scan");
   EXPECT_EQ(recorded.schema->data, topics::idl_text("Scan.idl"));
   EXPECT_FALSE(reader.next(recorded));
+}
+
+TEST_F(RecorderTest, KeepsHeartbeatsAndTheLastOfEachServiceInEveryFile) {
+  parameters_.split = "3s";
+  Recorder recorder(folder_.path() / "a.mcap", parameters_, {scans}, {}, "t/status");
+  msg::ServiceStatus status;
+  status.state(msg::ServiceState::STATE_ACTIVE);
+  for (const char* service : {"front", "walls", "front"}) {
+    status.service(service);
+    recorder.record_heartbeat(status);
+  }
+  status.service("walls");
+  status.detail("no input");
+  recorder.record_heartbeat(status);
+  // Scans are received in 1970, where the next file begins 3 s later.
+  for (const std::uint64_t i : {0U, 1U, 5U}) {
+    const Sent message = sent<msg::Scan>(i);
+    recorder.record(0, message.raw, message.header);
+  }
+  recorder.finish();
+  const auto files = recorder.files();
+  ASSERT_GE(files.size(), 2U);
+  EXPECT_EQ(counts(files.front())["t/status"], 4);
+  EXPECT_EQ(counts(files.front())["t/status/log"], 1) << "the only one that says something";
+  EXPECT_EQ(counts(files.back())["t/status"], 2);
 }
 
 TEST_F(RecorderTest, CountsWhatNeverCame) {

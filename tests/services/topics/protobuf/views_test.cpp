@@ -9,6 +9,7 @@
 #include <idl/Corners.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
+#include <idl/Status.h>
 #include <limits>
 #include <string>
 
@@ -55,6 +56,26 @@ TEST(Views, SchemasAreDeclared) {
     }
   }
   EXPECT_NO_THROW((void)protobuf_message(frame_transform_schema));
+}
+
+TEST(Views, HeartbeatsThatSayMoreThanAllIsWellAreLogged) {
+  msg::ServiceStatus status;
+  status.service("walls");
+  status.stamp(1'500'000'000'250'000'000);
+  status.state(msg::ServiceState::STATE_ACTIVE);
+  EXPECT_FALSE(shown<foxglove::Log>("status", "log", status));
+  status.detail("2 lines skipped");
+  auto log = shown<foxglove::Log>("status", "log", status);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->level(), foxglove::Log::WARNING);
+  EXPECT_EQ(log->message(), "2 lines skipped");
+  EXPECT_EQ(log->name(), "walls");
+  EXPECT_EQ(log->timestamp().nanos(), 250'000'000);
+  status.state(msg::ServiceState::STATE_FAILED);
+  log = shown<foxglove::Log>("status", "log", status);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->level(), foxglove::Log::ERROR);
+  EXPECT_EQ(log->message(), "failed: 2 lines skipped");
 }
 
 TEST(Views, AnEvenScanIsShownAsRays) {
