@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "deploy/observation/message_drawing.hpp"
-#include "sensor_bridge/message_files/mcap_reader.hpp"
+#include "sensor_bridge/message_files/message_file.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "services/topics/cdr_codec.hpp"
 #include "services/topics/header.hpp"
@@ -43,10 +43,12 @@ FoundScan find_scan(const std::filesystem::path& file, const RecordedScanChoice&
     found.time = found.scan.stamp ? *found.scan.stamp - *first : 0.0;
     if (choice.at ? found.time >= *choice.at : number == choice.scan) return found;
   }
-  throw std::out_of_range(file.string() + ": " +
-                          (choice.at ? "it ends before " + std::to_string(*choice.at) + " s"
-                                     : "there is no scan " + std::to_string(choice.scan)) +
-                          "; its last is " + std::to_string(found.number));
+  std::array<char, 64> last{};
+  std::snprintf(last.data(), last.size(), "its last is %llu, %.3f s after the first",
+                static_cast<unsigned long long>(found.number), found.time);
+  throw std::out_of_range(file.string() + ": there is no scan " +
+                          (choice.at ? "so late" : std::to_string(choice.scan)) + "; " +
+                          last.data());
 }
 
 /// What was made of one scan, by topic.

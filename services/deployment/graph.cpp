@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "services/deployment/known_outputs.hpp"
 #include "services/topics/topic_types.hpp"
 
 namespace quoin {
@@ -25,10 +26,18 @@ OutputConfig output_of(const ServiceConfig& writer, std::string_view type,
           .qos = effective_qos(writer.qos, type)};
 }
 
-/// What an observer may find there: of a kind that is not known here any type there is.
+/// What an observer may find there: of a kind that nobody knows here any type there is.
 std::vector<OutputConfig> outputs_of(const ServiceConfig& writer, std::string_view name_space) {
   if (writer.info != nullptr) return writer.outputs;
   std::vector<OutputConfig> outputs;
+  if (const KindInfo* known = known_outputs(writer.kind)) {
+    for (const OutputPort& port : known->outputs) {
+      if (known->gives(port, writer.parameters)) {
+        outputs.push_back(output_of(writer, port.type, name_space));
+      }
+    }
+    return outputs;
+  }
   for (const topics::TopicType& type : topics::topic_types()) {
     outputs.push_back(output_of(writer, type.name, name_space));
   }

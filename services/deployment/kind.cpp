@@ -35,7 +35,8 @@ bool KindInfo::gives(const OutputPort& port, const ParameterSettings& settings) 
   if (info == parameters.end()) throw std::logic_error("no parameter " + port.parameter);
   const auto setting = std::ranges::find(settings, port.parameter, &ParameterSetting::name);
   const std::string& value = setting == settings.end() ? info->default_value : setting->text;
-  // What is neither true nor false has been reported.
+  // A switch is true, or a list of types names this one. What is neither true nor false has been
+  // reported.
   if (info->type == ParameterType::boolean) return value == "true";
   return std::ranges::count(list_entries(value), port.type) > 0;
 }

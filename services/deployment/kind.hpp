@@ -34,8 +34,8 @@ struct InputPort {
 struct OutputPort {
   std::string type;  ///< of the table of topic types; no two of a kind have the same
   Rate rate = Rate::per_input;
-  /// Parameter of the kind without which there is no such output: a switch that is true, or a list
-  /// of types that names it; "" for those that always are.
+  /// Boolean parameter of the kind without which there is no such output; "" for those that always
+  /// are. The first output always is.
   std::string parameter = {};
 };
 

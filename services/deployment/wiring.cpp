@@ -48,11 +48,19 @@ Index index_names(const std::vector<DraftService>& drafts, Problems& problems) {
   return index;
 }
 
-/// Names of the kinds that give `type`.
+/// Whether a parameter of the kind lists the types that it gives.
+bool is_listed(const KindInfo& kind, const OutputPort& port) {
+  const auto info = std::ranges::find(kind.parameters, port.parameter, &ParameterInfo::name);
+  return info != kind.parameters.end() && info->type == ParameterType::text;
+}
+
+/// Names of the kinds that give `type`, or would by a switch.
 std::string writers_of(std::string_view type, const KindList& kinds) {
   std::string names;
   for (const KindInfo* kind : kinds.kinds) {
-    if (kind->output(type) != nullptr) names += (names.empty() ? "" : " or ") + kind->name;
+    const OutputPort* port = kind->output(type);
+    if (port == nullptr || (is_listed(*kind, *port) && !kind->gives(*port, {}))) continue;
+    names += (names.empty() ? "" : " or ") + kind->name;
   }
   return names.empty() ? "that gives " + std::string(type) : "of kind " + names;
 }
@@ -85,6 +93,14 @@ std::string types_of(const ServiceConfig& service) {
 
 std::string mismatch(const ServiceConfig& writer, const ServiceConfig& reader,
                      const std::string& wanted, const KindList& kinds) {
+  if (writer.outputs.empty() && writer.info != nullptr && !writer.info->outputs.empty()) {
+    std::string types;
+    for (const OutputPort& port : writer.info->outputs) {
+      types += (types.empty() ? "" : ", ") + port.type;
+    }
+    return "'" + writer.name + "' publishes nothing, since '" +
+           writer.info->outputs.front().parameter + "' in its parameters names none of " + types;
+  }
   if (writer.outputs.empty()) {
     return "'" + writer.name + "' of kind " + writer.kind + " publishes nothing; name a service " +
            writers_of(wanted, kinds);
@@ -92,10 +108,7 @@ std::string mismatch(const ServiceConfig& writer, const ServiceConfig& reader,
   const OutputPort* const port = writer.info == nullptr ? nullptr : writer.info->output(wanted);
   std::string alternative;
   if (port != nullptr && !port->parameter.empty()) {
-    const auto& parameters = writer.info->parameters;
-    const auto info = std::ranges::find(parameters, port->parameter, &ParameterInfo::name);
-    const bool list = info != parameters.end() && info->type == ParameterType::text;
-    if (!list) {
+    if (!is_listed(*writer.info, *port)) {
       return "'" + writer.name + "' gives " + wanted + " only if asked to; set " + port->parameter +
              ": true in its parameters";
     }

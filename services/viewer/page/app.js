@@ -283,11 +283,17 @@ function refresh() {
     setBanner('off', 'Not connected to ' + location.host,
       (primary ? 'The picture is old. ' : '') + (state.reason ? state.reason + '. ' : '') +
       'Trying again. Is the deployment running?' + (location.search ? '' : ' Elsewhere than on its own host the address needs its token.'));
+  } else if (!primary && playbackBar.holds()) {
+    setPill('paused', 'replay paused');
+    setBanner('stale', 'The replay is paused', 'Nothing has been published yet: resume or step it below.');
   } else if (!primary) {
     setPill('stale', 'no data');
     setBanner('stale', 'Connected, but nothing has been published yet', scene.services.size > 0 ? 'Services report; see Health.' : 'No heartbeat has come either.');
   } else if (state.at !== null) {
     setPill('paused', 'paused');
+    setBanner('', '', '');
+  } else if (quiet > staleAfter && playbackBar.holds()) {
+    setPill('paused', 'replay paused');
     setBanner('', '', '');
   } else if (quiet > staleAfter) {
     const silent = [...scene.services.values()].filter(({ status, received }) => now - received > 3000 || status.state === 'STATE_FAILED').map(({ status }) => status.service);

@@ -23,6 +23,9 @@ export class PlaybackBar {
     this.pause.setAttribute('aria-pressed', String(paused));
   }
 
+  // Whether nothing comes because of it.
+  holds() { return this.paused && !this.bar.hidden; }
+
   // `services`: newest heartbeats by label. `offered`: the server passes wishes on.
   update(services, offered) {
     const replays = [...services.values()].map(({ status }) => status).filter((status) => status.kind === 'replay' && valueOf(status, 'Playback'));

@@ -4,9 +4,12 @@
 
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
+#include "services/deployment/known_outputs.hpp"
 #include "services/topics/topic_types.hpp"
 
 namespace quoin {
@@ -89,6 +92,43 @@ TEST(Kinds, KnowTheMethods) {
 TEST(Kinds, UnknownNamesAreNotFound) {
   EXPECT_EQ(deploy::find_kind("lidar"), nullptr);
   EXPECT_EQ(deploy::find_kind(""), nullptr);
+}
+
+TEST(Kinds, ObserversKnowTheirOutputs) {
+  for (const KindInfo* kind : deploy::kinds().kinds) {
+    if (kind == &external_kind()) continue;
+    const KindInfo* known = known_outputs(kind->name);
+    ASSERT_NE(known, nullptr) << kind->name;
+    ASSERT_EQ(known->outputs.size(), kind->outputs.size()) << kind->name;
+    for (std::size_t i = 0; i < kind->outputs.size(); ++i) {
+      const OutputPort& port = kind->outputs[i];
+      EXPECT_EQ(known->outputs[i].type, port.type) << kind->name;
+      EXPECT_EQ(known->outputs[i].rate, port.rate) << kind->name;
+      ASSERT_EQ(known->outputs[i].parameter, port.parameter) << kind->name;
+      for (const char* value : {"true", "false", "scan", "lines, scan"}) {
+        const ParameterSettings settings{{port.parameter, value}};
+        EXPECT_EQ(known->gives(port, settings), kind->gives(port, settings))
+            << kind->name << ' ' << port.type << ' ' << value;
+      }
+      EXPECT_EQ(known->gives(port, {}), kind->gives(port, {})) << kind->name << ' ' << port.type;
+    }
+  }
+  EXPECT_EQ(known_outputs("test_join"), nullptr);
+}
+
+TEST(Kinds, AReplayGivesTheTypesThatItIsAskedFor) {
+  const KindInfo& replay = *deploy::find_kind("replay");
+  const auto given = [&](const ParameterSettings& settings) {
+    std::vector<std::string> types;
+    for (const OutputPort& port : replay.outputs) {
+      if (replay.gives(port, settings)) types.push_back(port.type);
+    }
+    return types;
+  };
+  EXPECT_THAT(given({}), ElementsAre("scan"));
+  EXPECT_THAT(given({{"odometry", "true"}}), ElementsAre("scan", "odometry"));
+  EXPECT_THAT(given({{"messages", "lines,segments "}}), ElementsAre("segments", "lines"));
+  EXPECT_THAT(given({{"messages", "line"}}), ElementsAre());
 }
 
 TEST(Kinds, ParametersComeFromTheMethodOrTheKind) {
