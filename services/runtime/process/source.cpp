@@ -25,9 +25,9 @@ using Outputs = std::vector<Node::OutputPart>;
 /// What a source answers to requests for its settings.
 class SourceSettings {
  public:
-  void set(Source::Settings settings) {
+  void set(const Source::Settings& settings) {
     const std::lock_guard lock(mutex_);
-    settings_ = std::move(settings);
+    settings_ = settings;
   }
 
   void answer(const ServiceConfig& config, const msg::ControlRequest& request,
@@ -87,8 +87,8 @@ class PublishingSource final : public ServiceActivity<Source> {
 
   [[nodiscard]] std::size_t readers() const override { return outputs_.front().output->matched(); }
 
-  bool answer_settings(Settings settings) override {
-    settings_.set(std::move(settings));
+  bool answer_settings(const Settings& settings) override {
+    settings_.set(settings);
     return true;
   }
 

@@ -46,7 +46,7 @@ class Source : public Activity {
   using Settings = std::function<ParameterSettings(const ParameterSettings&)>;
   /// Has requests for other settings (`quoin set`) answered by `settings`, in another thread, until
   /// the service ends. False when nobody can ask.
-  virtual bool answer_settings(Settings) { return false; }
+  virtual bool answer_settings(const Settings&) { return false; }
 
   /// To read topics that no service of the deployment writes.
   [[nodiscard]] virtual Participant& participant() {

@@ -253,8 +253,8 @@ class AskedSource final : public RecordingSource {
   using Request = std::pair<std::size_t, ParameterSettings>;
   explicit AskedSource(std::vector<Request> requests) : requests_(std::move(requests)) {}
 
-  bool answer_settings(Settings settings) override {
-    settings_ = std::move(settings);
+  bool answer_settings(const Settings& settings) override {
+    settings_ = settings;
     return true;
   }
   bool wait_until(std::chrono::steady_clock::time_point time) override {
