@@ -37,8 +37,9 @@ LineReader::LineReader(const std::filesystem::path& file)
     throw std::bad_alloc();
   }
   gzbuffer(file_of(handle_.get()), chunk_size);
+  std::error_code error;
   size_ = std::filesystem::file_size(file, error);
-  if (error) size_ = 0;  // a pipe
+  if (error) size_ = 0;  // gone meanwhile
 }
 
 double LineReader::progress() const {

@@ -30,9 +30,9 @@ deny sensor_bridge/transport 'core/|deploy/|idl/|services/|sensor_bridge/(rplida
   "the transport knows no device and no format"
 deny sensor_bridge/recordings 'deploy/|idl/|services/|sensor_bridge/(rplidar|simulated|transport)/' \
   "file formats know no device and no message, but for the bytes of scans" \
-  '^sensor_bridge/recordings/laser_scan_message\.cpp:.*services/topics/cdr_cursor\.hpp"$'
+  '^sensor_bridge/recordings/(laser_scan|odometry)_message\.cpp:.*services/topics/cdr_cursor\.hpp"$|services/files/regular_file\.hpp"$'
 deny sensor_bridge/message_files 'deploy/|idl/|services/|sensor_bridge/(recordings|rplidar|simulated|transport)/' \
-  "containers of messages know no message"
+  "containers of messages know no message" 'services/files/regular_file\.hpp"$'
 deny sensor_bridge/rplidar/driver 'core/|deploy/|idl/|services/|sensor_bridge/rplidar/emulator' \
   "the RPLIDAR driver knows protocol and transport"
 deny sensor_bridge/rplidar/emulator 'deploy/|idl/|services/|sensor_bridge/(rplidar/driver|transport)' \
