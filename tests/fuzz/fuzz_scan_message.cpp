@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     RecordedOdometry odometry;
     const auto wrong =
         read_odometry_message(static_cast<OdometryMessage>(choice - 3), bytes, odometry);
-    const Pose2& pose = odometry.pose;
+    const auto& pose = odometry.pose;
     quoin::fuzz::require(std::isfinite(pose.x) && std::isfinite(pose.y) &&
                              std::isfinite(pose.theta) && odometry.covariance.allFinite(),
                          "only what is finite");
