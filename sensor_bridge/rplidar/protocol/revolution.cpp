@@ -48,10 +48,11 @@ bool RevolutionAssembler::add(const SampleBlock& block, TimePoint arrival, Revol
     if (!is_cut_before(block, i) || cut) continue;
     cut = true;
     if (i == 0 && missing > 0.0) {
-      behind_zero = std::min(clock_.missing(),
-                             static_cast<std::size_t>(block.samples_per_turn *
-                                                      static_cast<double>(block.angle_q16[0]) /
-                                                      static_cast<double>(full_circle_q16)));
+      // Of a sensor that hardly turns, a turn has more samples than can be counted.
+      behind_zero = static_cast<std::size_t>(
+          std::min(static_cast<double>(clock_.missing()),
+                   block.samples_per_turn * static_cast<double>(block.angle_q16[0]) /
+                       static_cast<double>(full_circle_q16)));
     }
     if (started_) {
       if (block.after_gap) ++current_.gaps;
