@@ -440,6 +440,8 @@ void Landmarks::rebuild_near() {
   std::vector<char> seen(graph_.landmarks().size(), 0);
   const std::size_t count = keyframes.size();
   const std::size_t end = std::min(count, base_keyframe_ + 3);
+  // A keyframe that was found by the whole map has no walls yet, and no keyframes before it.
+  const bool put_there = base_keyframe_ > 0 && keyframes[base_keyframe_].observations.empty();
   for (std::size_t k = end > 6 ? end - 6 : 0; k < end; ++k) {
     for (const auto& observation : keyframes[k].observations) seen[observation.landmark] = 1;
   }
@@ -451,9 +453,9 @@ void Landmarks::rebuild_near() {
     for (const auto& observation : keyframes[k].observations) {
       common += seen[observation.landmark] != 0 ? 1 : 0;
     }
-    if (k < end && k + last >= end) {
+    if (k < end && k + last >= end && !put_there) {
       chosen.emplace_back(-1.0, k);
-    } else if (distance < parameters_.reach && common >= 3) {
+    } else if (distance < parameters_.reach && (common >= 3 || put_there)) {
       chosen.emplace_back(distance, k);
     }
   }
@@ -891,6 +893,7 @@ bool Landmarks::relocalize(Localization& result) {
   since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
   candidate_.reset();
   lost_ = false;
+  last_pose_ = pose;
   result.pose.pose = pose;
   return true;
 }
@@ -938,7 +941,8 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       search_covariance_.diagonal() += variances;
     }
     Belief posterior;
-    if (lost_ && relocalize(result)) fits_ = true;
+    const bool found_again = lost_ && relocalize(result);
+    if (found_again) fits_ = true;
     motion_ = since_;
     PoseWindow window;
     window.center = compose(belief_.pose, since_.pose);
@@ -946,7 +950,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       const Pose2& step = input.motion->pose;
       window.translation = 0.15 + 0.3 * std::hypot(step.x, step.y);
       window.turn = 0.05 + 0.3 * std::abs(step.theta);
-      window.center = compose(last_pose_, step);
+      if (!found_again) window.center = compose(last_pose_, step);
     } else {
       window.translation = std::clamp(3.0 * parameters_.speed_stddev * seconds, 0.1, 1.0);
       window.turn = std::clamp(3.0 * parameters_.turn_stddev * seconds, 0.05, 0.8);

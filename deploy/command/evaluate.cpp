@@ -141,6 +141,11 @@ Command add_evaluate(CLI::App& app) {
       ->delimiter(',');
   line->add_option("--scans", evaluation.scans,
                    "Scan files (CARMEN, CSV) or folders of them to extract corners from");
+  line->add_option("--relations", evaluation.relations,
+                   "Verified relations of poses in these scan files (Kuemmerle et al. 2009)");
+  line->add_option("--relations-offset", evaluation.relations_offset,
+                   "Stamps of the relations less those of the scans [s]")
+      ->capture_default_str();
   SensorModel& noise = evaluation.scan_noise;
   line->add_option("--range-stddev", noise.range_stddev,
                    "Of the sensor that recorded the scan files: noise of each range [m]")

@@ -9,6 +9,7 @@
 #include "core/fitting/fitters.hpp"
 #include "core/parameters/parameter.hpp"
 #include "core/segmentation/segmenters.hpp"
+#include "deploy/evaluation/pose_relations.hpp"
 #include "deploy/evaluation/sections.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/simulated/world_file.hpp"
@@ -99,6 +100,12 @@ EvaluationSetup prepare(const EvaluationOptions& options) {
     }
   }
   setup.scan_files = read_scan_files(options.scans);
+  if (!options.relations.empty()) {
+    if (options.scans.empty()) {
+      throw OptionError("--relations: they are of poses of scan files; name these with --scans");
+    }
+    setup.relations = read_pose_relations(options.relations, options.relations_offset);
+  }
   return setup;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/evaluation/mapping_quality.hpp"
 #include "core/fitting/fit.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/sensor/points.hpp"
@@ -30,6 +31,8 @@ struct EvaluationOptions {
   std::vector<std::string> fitters;
   std::vector<std::string> worlds;  ///< names of built-in worlds, world files or folders of them
   std::vector<std::string> scans;   ///< paths of scan files or folders of them
+  std::string relations;            ///< verified relations of poses of `scans`, a file; or ""
+  double relations_offset = 0.0;    ///< [s] their stamps less those of the scans
   SensorModel scan_noise;           ///< of the sensor that recorded `scans`
   std::vector<std::string> only;    ///< names of sections
   std::size_t trials = 2000;
@@ -54,6 +57,7 @@ struct EvaluationSetup {
   std::vector<std::string> loop_segmenters;  ///< the chosen ones, or the default
   std::vector<World> worlds;                 ///< the given ones, or none
   std::vector<ScanFile> scan_files;
+  std::vector<PoseRelation> relations;
 };
 
 /// Throws OptionError, WorldError or ScanFileError.

@@ -16,6 +16,7 @@ const std::vector<SectionKind>& section_kinds() {
       {"worlds", "Rooms, flats and halls", make_worlds_section},
       {"segmenters", "Segmenters", make_segmenters_section},
       {"robustness", "Stray returns, few rays and round things", make_robustness_section},
+      {"mapping", "Maps and localization", make_mapping_section},
       {scan_files_section, "Scan files", make_scan_files_section}};
   return kinds;
 }

@@ -56,6 +56,7 @@ inline constexpr const char* scan_files_section = "scans";
 [[nodiscard]] std::unique_ptr<Section> make_worlds_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_segmenters_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_robustness_section(const EvaluationSetup& setup);
+[[nodiscard]] std::unique_ptr<Section> make_mapping_section(const EvaluationSetup& setup);
 [[nodiscard]] std::unique_ptr<Section> make_scan_files_section(const EvaluationSetup& setup);
 
 }  // namespace quoin::deploy
