@@ -32,10 +32,20 @@ constexpr double weak_position = 0.25;       // [m] by the walls alone
 constexpr std::size_t refresh_keyframes = 12;
 constexpr double refresh_distance = 4.0;  // [m]
 constexpr std::size_t most_active = 120;
-constexpr double least_share = 0.4;  // of the points of a scan that lie on the map around
-constexpr double loop_reach = 12.0;  // [m] of the points that loops are found by
+constexpr double least_share = 0.4;   // of the points of a scan that lie on the map around
+constexpr double largest_fall = 0.3;  // of that share, from one scan to the next
+constexpr double loop_reach = 12.0;   // [m] of the points that loops are found by
 const Eigen::Matrix3d unknown_place = Eigen::Vector3d(0.25, 0.25, 0.1).asDiagonal();
 constexpr double loop_gate = 30.0;
+constexpr double point_spacing = 0.05;  // [m] of a scan
+// A pose that is found in the whole map.
+constexpr std::size_t least_points = 40;    // of a scan
+constexpr double least_found_share = 0.8;   // of them that lie on the map
+constexpr double least_contradicted = 1.5;  // [m] more at any other place
+constexpr double search_period = 0.5;       // [s]
+constexpr double back_share = 0.85;         // of a scan that fits where the robot should be
+constexpr int back_scans = 5;               // in a row
+constexpr std::size_t blind_points = 10;    // of a scan that says nothing
 
 SidedSegment sided(const LineMeasurement& m) { return {m.alpha, m.middle, m.half_length}; }
 SidedSegment sided(const LineLandmark& l) {
@@ -91,6 +101,18 @@ PoseEstimate compose_correlated(const PoseEstimate& first, const PoseEstimate& i
   if (!(trace_a > 0.0) || !(trace_b > 0.0)) return {compose(first.pose, increment.pose), a + b};
   const double s = std::sqrt(trace_b / trace_a);
   return {compose(first.pose, increment.pose), (1.0 + s) * a + (1.0 + 1.0 / s) * b};
+}
+
+std::vector<SurfacePoint> points_on(const LineLandmark& landmark) {
+  const int steps = std::max(2, static_cast<int>(landmark.length() / 0.05));
+  std::vector<SurfacePoint> points(static_cast<std::size_t>(steps));
+  for (int i = 0; i < steps; ++i) {
+    SurfacePoint& point = points[static_cast<std::size_t>(i)];
+    const double s = landmark.low + (i + 0.5) / steps * landmark.length();
+    point.position = landmark.at(s).cast<float>();
+    point.normal = (-landmark.normal()).cast<float>();
+  }
+  return points;
 }
 
 /// A covariance of a pose in the map, in the frame of another pose.
@@ -291,10 +313,10 @@ bool Landmarks::update(const Belief& prior, Pairs& pairs, Belief& posterior) con
 }
 
 /// Length [m] of mapped walls through which lines of the scan are seen.
-double Landmarks::seen_through(const Pose2& pose) const {
+double Landmarks::seen_through(const Pose2& pose, std::span<const std::size_t> walls) const {
   constexpr int samples = 5;
   double length = 0.0;
-  for (const std::size_t index : active_) {
+  for (const std::size_t index : walls) {
     const LineLandmark& landmark = graph_.landmarks()[index];
     if (landmark.observations < 3) continue;
     for (int i = 0; i < samples; ++i) {
@@ -378,14 +400,16 @@ void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization&
     result.weak_direction = direction_of(direction.x(), direction.y());
   }
   const bool lies_well = share_ > 0.6;
-  const double refuted = lies_well ? 0.0 : seen_through(posterior.pose);
+  const double refuted = lies_well ? 0.0 : seen_through(posterior.pose, active_);
   const bool contradicted = share_ < least_share && matched < 0.5 * total &&
                             refuted > std::max({matched, 0.4 * total, least_refuted});
   // Neighbouring scans see the same walls.
-  const Pose2 step = between(last_pose_, posterior.pose);
-  const bool jumped = share_ < least_share && matched < 0.2 * total && scan_.size() > 20 &&
-                      std::hypot(step.x, step.y) < short_step && std::abs(step.theta) < short_turn;
-  fits_ = !contradicted && !jumped && (has_odometry_ || share_ > 0.0 || !pairs.empty());
+  const bool fell = share_ < least_share || (!lies_well && share_ + largest_fall < last_share_);
+  const bool jumped = fell && matched < 0.5 * total && scan_.size() > 20 &&
+                      std::hypot(expected_step_.x, expected_step_.y) < short_step &&
+                      std::abs(expected_step_.theta) < short_turn;
+  const bool blind = scan_.size() < blind_points && pairs.empty();
+  fits_ = !contradicted && !jumped && !blind && (has_odometry_ || share_ > 0.0 || !pairs.empty());
   if (lost_) {
     result.status = LocalizationStatus::lost;
   } else if (!fits_ || weak || (matched < 0.5 * total && !lies_well) || refuted > matched) {
@@ -398,7 +422,7 @@ void Landmarks::judge(const Belief& posterior, const Pairs& pairs, Localization&
 /// Points of the scan; where there are none, points of its lines.
 void Landmarks::collect_points(const LocalizationInput& input) {
   if (!input.points.empty()) {
-    surface_points(input.points, 0.05, 2.0 * parameters_.reach, scan_);
+    surface_points(input.points, point_spacing, 2.0 * parameters_.reach, scan_);
     return;
   }
   scan_.clear();
@@ -424,24 +448,13 @@ void Landmarks::rebuild_near() {
   near_.clear({belief_.pose.x, belief_.pose.y}, parameters_.reach + 8.0);
   if (!given_.empty()) {
     for (const std::size_t index : active_) {
-      const LineLandmark& landmark = graph_.landmarks()[index];
-      const int steps = std::max(2, static_cast<int>(landmark.length() / 0.05));
-      std::vector<SurfacePoint> points(static_cast<std::size_t>(steps));
-      for (int i = 0; i < steps; ++i) {
-        SurfacePoint& point = points[static_cast<std::size_t>(i)];
-        const double s = landmark.low + (i + 0.5) / steps * landmark.length();
-        point.position = landmark.at(s).cast<float>();
-        point.normal = (-landmark.normal()).cast<float>();
-      }
-      near_.add({}, points);
+      near_.add({}, points_on(graph_.landmarks()[index]));
     }
     return;
   }
   std::vector<char> seen(graph_.landmarks().size(), 0);
   const std::size_t count = keyframes.size();
   const std::size_t end = std::min(count, base_keyframe_ + 3);
-  // A keyframe that was found by the whole map has no walls yet, and no keyframes before it.
-  const bool put_there = base_keyframe_ > 0 && keyframes[base_keyframe_].observations.empty();
   for (std::size_t k = end > 6 ? end - 6 : 0; k < end; ++k) {
     for (const auto& observation : keyframes[k].observations) seen[observation.landmark] = 1;
   }
@@ -453,9 +466,9 @@ void Landmarks::rebuild_near() {
     for (const auto& observation : keyframes[k].observations) {
       common += seen[observation.landmark] != 0 ? 1 : 0;
     }
-    if (k < end && k + last >= end && !put_there) {
+    if (k < end && k + last >= end) {
       chosen.emplace_back(-1.0, k);
-    } else if (distance < parameters_.reach && (common >= 3 || put_there)) {
+    } else if (distance < parameters_.reach && common >= 3) {
       chosen.emplace_back(distance, k);
     }
   }
@@ -855,46 +868,130 @@ void Landmarks::check_loops() {
   }
 }
 
-/// Where the scan fits all of the map, if only one pose does. Two scans in a row have to agree.
-bool Landmarks::relocalize(Localization& result) {
-  std::vector<SidedSegment> first, second;
-  for (const LineMeasurement& m : measurements_) first.push_back(sided(m));
+/// The points of the whole map: of all keyframes, or of all given walls.
+void Landmarks::build_whole() {
+  constexpr double margin = 2.0;  // [m]
+  const auto& keyframes = graph_.keyframes();
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
   for (const LineLandmark& landmark : graph_.landmarks()) {
-    if (landmark.alive && landmark.observations >= 3) second.push_back(sided(landmark));
+    if (!landmark.alive) continue;
+    for (const double s : {landmark.low, landmark.high}) {
+      low = low.cwiseMin(landmark.at(s));
+      high = high.cwiseMax(landmark.at(s));
+    }
   }
-  const std::vector<Alignment> found = align(first, second, AlignmentSearch{});
-  const bool unique = !found.empty() && found.front().pairs.size() >= 4 &&
-                      found.front().support > 0.6 * length_of_scan() &&
-                      (found.size() < 2 || found[1].support < 0.75 * found[0].support);
-  if (!unique) {
+  if (given_.empty()) {
+    for (const LandmarkGraph::Keyframe& keyframe : keyframes) {
+      low = low.cwiseMin(Eigen::Vector2d(keyframe.pose.x, keyframe.pose.y));
+      high = high.cwiseMax(Eigen::Vector2d(keyframe.pose.x, keyframe.pose.y));
+    }
+  }
+  whole_window_.center = {0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), 0.0};
+  whole_window_.translation = 0.5 * (high - low).maxCoeff();
+  whole_window_.turn = pi;
+  whole_.clear(0.5 * (low + high), whole_window_.translation + margin);
+  if (given_.empty()) {
+    for (std::size_t k = 0; k < keyframes.size(); ++k) whole_.add(keyframes[k].pose, clouds_[k]);
+    return;
+  }
+  for (const LineLandmark& landmark : graph_.landmarks()) whole_.add({}, points_on(landmark));
+}
+
+/// Where on the whole map the points of the scan lie, if they lie at one place only.
+std::optional<Registration> Landmarks::find_in_whole() {
+  std::vector<Registration> refined;
+  for (const PointMap::Candidate& candidate : whole_.search(scan_, whole_window_, 20)) {
+    const PoseEstimate prior{candidate.pose, 0.04 * Eigen::Matrix3d::Identity()};
+    refined.push_back(whole_.refine(scan_, candidate.pose, prior));
+  }
+  if (refined.empty()) return std::nullopt;
+  const Registration best = *std::max_element(
+      refined.begin(), refined.end(),
+      [](const Registration& a, const Registration& b) { return a.share < b.share; });
+  if (!lies_at(best)) return std::nullopt;
+  // Every other place contradicts the scan by more than a door or a sofa that people move.
+  for (const Registration& other : refined) {
+    const Pose2 apart = between(best.estimate.pose, other.estimate.pose);
+    if (std::hypot(apart.x, apart.y) < 0.3 && std::abs(apart.theta) < 0.15) continue;
+    if (contradicted_length(other) < contradicted_length(best) + least_contradicted) {
+      return std::nullopt;
+    }
+  }
+  return best;
+}
+
+/// Length [m] of what is seen where the map has nothing, and of mapped walls that are seen through.
+double Landmarks::contradicted_length(const Registration& registration) const {
+  std::vector<std::size_t> walls;
+  for (std::size_t i = 0; i < graph_.landmarks().size(); ++i) {
+    if (graph_.landmarks()[i].alive) walls.push_back(i);
+  }
+  return (1.0 - registration.share) * static_cast<double>(scan_.size()) * point_spacing +
+         seen_through(registration.estimate.pose, walls);
+}
+
+/// Whether nearly all that is seen lies on the map there, and the position is determined in every
+/// direction.
+bool Landmarks::lies_at(const Registration& registration) const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      Eigen::Matrix2d(registration.estimate.covariance.topLeftCorner<2, 2>()));
+  const double length = static_cast<double>(scan_.size()) * point_spacing;
+  return registration.share > least_found_share && axes.eigenvalues()(1) < 0.1 * 0.1 &&
+         contradicted_length(registration) < std::max(least_refuted, 0.25 * length);
+}
+
+/// Looks for the scan in the whole map. A pose that is found goes on with the motion, and is taken
+/// when the scans that follow lie there, too.
+bool Landmarks::relocalize(const LocalizationInput& input) {
+  if (scan_.size() < least_points) {
     candidate_.reset();
     return false;
   }
-  const Pose2 pose = found.front().pose;
-  const bool confirmed = candidate_ &&
-                         std::hypot(candidate_->x - pose.x, candidate_->y - pose.y) < 0.5 &&
-                         std::abs(normalized_angle(candidate_->theta - pose.theta)) < 0.5;
-  candidate_ = pose;
-  if (!confirmed) return false;
-  // A new keyframe that the motion does not tie to the one before.
-  since_.pose = between(belief_.pose, pose);
-  since_.covariance = Eigen::Vector3d(1e4, 1e4, 1e1).asDiagonal();
-  belief_.pose = pose;
-  if (given_.empty()) {
-    base_keyframe_ = graph_.add_keyframe(base_keyframe_, pose, since_);
-    base_is_keyframe_ = true;
-    clouds_.push_back(scan_);
-  } else {
-    belief_.covariance = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
+  if (whole_.empty()) build_whole();
+  std::optional<Registration> found;
+  if (candidate_) {
+    if (input.motion) candidate_ = compose(*candidate_, input.motion->pose);
+    const PoseEstimate prior{*candidate_, 0.04 * Eigen::Matrix3d::Identity()};
+    for (const PointMap::Candidate& near : whole_.search(scan_, {*candidate_, 0.3, 0.2}, 1)) {
+      found = whole_.refine(scan_, near.pose, prior);
+    }
+    if (found && !lies_at(*found)) found.reset();
+    ++found_scans_;
+  } else if (input.stamp >= next_search_) {
+    next_search_ = input.stamp + search_period;
+    found = find_in_whole();
+    found_scans_ = 0;
   }
-  since_ = PoseEstimate{};
-  refresh();
-  rebuild_near();
-  since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
   candidate_.reset();
+  if (!found) return false;
+  const Pose2 pose = found->estimate.pose;
+  if (found_scans_ < lost_scans) {
+    candidate_ = pose;
+    return false;
+  }
+  // On from the keyframe that is nearest, as far from it as the points say.
+  if (given_.empty()) {
+    base_keyframe_ = nearest_keyframe(pose);
+    base_is_keyframe_ = true;
+    const Pose2 from = graph_.keyframes()[base_keyframe_].pose;
+    belief_.pose = from;
+    refresh();
+    since_ = {between(belief_.pose, compose(belief_.pose, between(from, pose))),
+              in_frame_of(from, found->estimate.covariance)};
+  } else {
+    belief_.pose = pose;
+    belief_.covariance = found->estimate.covariance;
+    since_ = PoseEstimate{};
+    since_.covariance = Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal();
+    refresh();
+  }
+  search_covariance_ = since_.covariance;
+  last_pose_ = compose(belief_.pose, since_.pose);
+  rebuild_near();
+  whole_ = PointMap{};
+  registered_.reset();
+  found_scans_ = 0;
   lost_ = false;
-  last_pose_ = pose;
-  result.pose.pose = pose;
   return true;
 }
 
@@ -941,7 +1038,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       search_covariance_.diagonal() += variances;
     }
     Belief posterior;
-    const bool found_again = lost_ && relocalize(result);
+    const bool found_again = lost_ && relocalize(input);
     if (found_again) fits_ = true;
     motion_ = since_;
     PoseWindow window;
@@ -955,6 +1052,7 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
       window.translation = std::clamp(3.0 * parameters_.speed_stddev * seconds, 0.1, 1.0);
       window.turn = std::clamp(3.0 * parameters_.turn_stddev * seconds, 0.05, 0.8);
     }
+    expected_step_ = between(last_pose_, window.center);
     const std::optional<Registration> registration = register_scan(window.center, window);
     if (registration) {
       if (input.motion) judge_odometry(*input.motion, *registration);
@@ -975,19 +1073,24 @@ void Landmarks::operator()(const LocalizationInput& input, Localization& result)
     const double total = length_of_scan();
     well_matched_ = matched >= 0.5 * total && !pairs.empty();
     if (fits_) {
+      last_share_ = share_;
       lost_since_ = input.stamp;
       unfit_scans_ = 0;
-      const bool found = pairs.size() >= 3 && matched > 0.5 * total;
-      found_scans_ = lost_ && found ? found_scans_ + 1 : 0;
-      if (found_scans_ >= lost_scans) lost_ = false;
+      // Back where it should be, such as when what hid the walls has gone.
+      const bool is_back =
+          lost_ && share_ > back_share && pairs.size() >= 3 && matched > 0.7 * total;
+      back_scans_ = is_back ? back_scans_ + 1 : 0;
+      if (back_scans_ >= back_scans) lost_ = false;
     } else if (++unfit_scans_ >= lost_scans && input.stamp - lost_since_ > lost_after) {
+      if (!lost_) whole_ = PointMap{};
       lost_ = true;
-      found_scans_ = 0;
+      back_scans_ = 0;
       result.status = LocalizationStatus::lost;
     }
     if (registration) registered_ = posterior.pose;
-    velocity_ = twist_of(between(last_pose_, posterior.pose)) / seconds;
-    last_pose_ = posterior.pose;
+    // Where a scan does not fit, the next one is expected as if this one had not been.
+    if (fits_) velocity_ = twist_of(between(last_pose_, posterior.pose)) / seconds;
+    last_pose_ = fits_ ? posterior.pose : window.center;
     const Pose2 way = between(belief_.pose, posterior.pose);
     const double driven = std::hypot(way.x, way.y);
     const bool shows_new = matched < 0.7 * total;

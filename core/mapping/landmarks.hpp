@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -37,7 +38,7 @@ namespace quoin {
 ///    and a trial on a copy of the graph; it is taken out, with the walls merged since, when its
 ///    chi square grows beyond a gate later.
 /// 5. Where the points do not fit and the walls contradict the scan, the status is `lost`, until
-///    two scans in a row fit one place of the whole map and no other (`align`).
+///    a scan fits one place of the whole map and no other by its points, and the next ones, too.
 class Landmarks {
  public:
   static constexpr const char* name = "landmarks";
@@ -50,7 +51,7 @@ class Landmarks {
   static constexpr const char* choose =
       "For a pose and a map that stay true over many laps, with odometry or with the LiDAR alone. "
       "It says where walls leave a direction open, and finds itself again in its map.";
-  static constexpr const char* state = "landmarks/2";
+  static constexpr const char* state = "landmarks/3";
 
   struct Parameters {
     double keyframe_distance = 0.4;  // [m]
@@ -101,10 +102,11 @@ class Landmarks {
     archive(self.graph_, self.clouds_, self.given_, self.active_, self.belief_, self.since_,
             self.search_covariance_, self.well_matched_, self.base_keyframe_,
             self.base_is_keyframe_, self.last_pose_, self.velocity_, self.stamp_, self.lost_since_,
-            self.unfit_scans_, self.found_scans_, self.has_odometry_, self.fits_, self.lost_,
-            self.refreshed_at_, self.refreshed_keyframe_, self.last_loop_keyframe_,
-            self.closed_loops_, self.pending_loops_, self.odometry_scale_, self.judged_motions_,
-            self.registered_, self.candidate_, self.near_);
+            self.unfit_scans_, self.found_scans_, self.back_scans_, self.last_share_,
+            self.has_odometry_, self.fits_, self.lost_, self.refreshed_at_,
+            self.refreshed_keyframe_, self.last_loop_keyframe_, self.closed_loops_,
+            self.pending_loops_, self.odometry_scale_, self.judged_motions_, self.registered_,
+            self.candidate_, self.near_);
   }
 
  private:
@@ -146,8 +148,12 @@ class Landmarks {
   void check_loops();
   [[nodiscard]] std::vector<SurfacePoint> points_around(std::size_t keyframe, std::size_t first,
                                                         std::size_t last) const;
-  bool relocalize(Localization& result);
-  [[nodiscard]] double seen_through(const Pose2& pose) const;
+  void build_whole();
+  [[nodiscard]] std::optional<Registration> find_in_whole();
+  [[nodiscard]] double contradicted_length(const Registration& registration) const;
+  [[nodiscard]] bool lies_at(const Registration& registration) const;
+  bool relocalize(const LocalizationInput& input);
+  [[nodiscard]] double seen_through(const Pose2& pose, std::span<const std::size_t> walls) const;
 
   Parameters parameters_;
   LandmarkGraph graph_;
@@ -160,13 +166,16 @@ class Landmarks {
   bool base_is_keyframe_ = true;   // and whether it is still of its pose
   Pose2 scan_pose_;                // by the points alone
   Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Identity();
-  double share_ = 0.0;  // of the points of the scan that lie on the map around
-  Pose2 last_pose_;     // of the last scan
+  double last_share_ = 0.0;  // the same of the last scan that fitted
+  double share_ = 0.0;       // of the points of the scan that lie on the map around
+  Pose2 last_pose_;          // of the last scan
+  Pose2 expected_step_;      // since then, before anything was seen
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   std::optional<double> stamp_;
   double lost_since_ = 0.0;  // [s] stamp of the first scan that did not fit
   int unfit_scans_ = 0;
-  int found_scans_ = 0;
+  int found_scans_ = 0;  // in a row that lie at candidate_
+  int back_scans_ = 0;   // in a row that fit where a lost robot should be
   bool has_odometry_ = false;
   bool fits_ = true;
   bool lost_ = false;
@@ -180,7 +189,10 @@ class Landmarks {
   Eigen::Vector2d odometry_scale_ = Eigen::Vector2d::Ones();
   std::size_t judged_motions_ = 0;
   std::optional<Pose2> registered_;  // the last scan
-  std::optional<Pose2> candidate_;   // a pose found again, until the next scan confirms it
+  std::optional<Pose2> candidate_;   // a pose found again, until the next scans confirm it
+  double next_search_ = 0.0;         // [s] stamp from which the whole map is searched again
+  PointMap whole_;                   // empty unless the robot is lost
+  PoseWindow whole_window_;
   std::vector<LineMeasurement> measurements_;
   PoseEstimate motion_;                            // since_ with what the points say
   std::vector<std::vector<SurfacePoint>> clouds_;  // of the keyframes

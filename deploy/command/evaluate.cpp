@@ -123,7 +123,8 @@ std::string joined(const std::vector<std::string>& names) {
 Command add_evaluate(CLI::App& app) {
   CLI::App* line = app.add_subcommand(
       "evaluate",
-      "Judge segmenters and fitters on simulated worlds and scan files; writes a report");
+      "Judge segmenters, fitters, maps and poses on simulated worlds and scan files; writes a "
+      "report");
   const auto options = std::make_shared<EvaluateOptions>();
   EvaluationOptions& evaluation = options->evaluation;
   evaluation.threads = std::max(1U, std::thread::hardware_concurrency());
@@ -171,6 +172,12 @@ Command add_evaluate(CLI::App& app) {
   line->add_option("--scans-per-world", evaluation.scans_per_world,
                    "Simulated scans of each world for segmenters and the loop")
       ->check(more_than_zero())
+      ->capture_default_str();
+  line->add_option("--laps", evaluation.laps, "Laps of each simulated drive for maps and poses")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  line->add_option("--scenarios", evaluation.scenarios,
+                   "Runs of each scenario of localization: corridors, kidnapping and others")
       ->capture_default_str();
   line->add_option("--seed", evaluation.seed, "Seed of all noise; same seed, same numbers")
       ->check(CLI::NonNegativeNumber)

@@ -37,6 +37,8 @@ struct EvaluationOptions {
   std::vector<std::string> only;    ///< names of sections
   std::size_t trials = 2000;
   std::size_t scans_per_world = 200;
+  double laps = 1.0;          ///< of simulated drives, there and back
+  std::size_t scenarios = 1;  ///< runs of each scenario of localization
   std::uint64_t seed = 1;
   std::size_t threads = 1;
   bool timing = true;   ///< figures that differ from run to run

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/corners/corner_finders.hpp"
+#include "core/evaluation/localization_scenarios.hpp"
 #include "core/evaluation/mapping_quality.hpp"
 #include "core/mapping/localizers.hpp"
 #include "core/statistics/order_statistics.hpp"
@@ -23,8 +24,6 @@ namespace quoin::deploy {
 
 namespace {
 
-constexpr double drives_per_scan = 0.05;  // laps of each simulated world, by --scans-per-world
-constexpr double most_laps = 10.0;
 constexpr double same_stamp = 1e-3;    // [s] of a relation and a scan
 constexpr double largest_gap = 2.0;    // [s] that a trajectory is interpolated over
 constexpr double largest_lever = 1.0;  // [m] from the robot to its LiDAR
@@ -65,6 +64,35 @@ struct LogEntry {
   Drawing picture;
 };
 
+struct ScenarioEntry {
+  ScenarioRun run;
+  ScenarioOutcome outcome;
+};
+
+/// What the runs of one scenario came to.
+struct ScenarioSum {
+  std::size_t runs = 0, wrong_runs = 0, scans = 0, tracking = 0, ambiguous = 0, lost = 0;
+  std::size_t lost_runs = 0, found_runs = 0;
+  double largest_tracked = 0.0, slowest_lost = 0.0, slowest_found = 0.0;  // [m], [s], [s]
+
+  void add(const ScenarioOutcome& outcome) {
+    ++runs;
+    wrong_runs += outcome.confident_wrong > 0 ? 1 : 0;
+    scans += outcome.scans;
+    tracking += outcome.tracking;
+    ambiguous += outcome.ambiguous;
+    lost += outcome.lost;
+    lost_runs += outcome.lost_after ? 1 : 0;
+    found_runs += outcome.found_after ? 1 : 0;
+    largest_tracked = std::max(largest_tracked, outcome.largest_tracked);
+    slowest_lost = std::max(slowest_lost, outcome.lost_after.value_or(0.0));
+    slowest_found = std::max(slowest_found, outcome.found_after.value_or(0.0));
+  }
+  [[nodiscard]] double percent(std::size_t of) const {
+    return 100.0 * static_cast<double>(of) / static_cast<double>(std::max<std::size_t>(scans, 1));
+  }
+};
+
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
@@ -74,9 +102,9 @@ double mean(const std::vector<double>& values) {
 /// Poses of a log whose odometry is that of its poses were corrected by a mapper, both of them.
 bool has_raw_odometry(const ScanFile& file) {
   return std::any_of(file.scans.begin(), file.scans.end(), [](const auto& scan) {
-    if (!scan.odometry) return false;
+    if (scan.odometry.empty()) return false;
     if (!scan.pose) return true;
-    const Pose2 apart = between(*scan.pose, *scan.odometry);
+    const Pose2 apart = between(*scan.pose, scan.odometry.back().pose);
     return std::hypot(apart.x, apart.y) > largest_lever;
   });
 }
@@ -86,14 +114,21 @@ class MappingSection : public Section {
   explicit MappingSection(const EvaluationSetup& setup)
       : seed_(setup.options.seed),
         timing_(setup.options.timing),
-        laps_(std::min(most_laps,
-                       drives_per_scan * static_cast<double>(setup.options.scans_per_world))),
+        laps_(setup.options.laps),
         worlds_(worlds_or(setup, world_names())),
         files_(setup.scan_files),
         noise_(setup.options.scan_noise),
         relations_(setup.relations) {
     for (std::size_t world = 0; world < worlds_.size(); ++world) {
       for (const Variant& variant : variants) drives_.push_back({world, variant, {}});
+    }
+    for (const auto& [scenario, name] : EnumNames<LocalizationScenario>::names) {
+      for (std::size_t i = 0; i < setup.options.scenarios; ++i) {
+        // Every other robot has no wheel odometry.
+        const std::uint64_t seed =
+            derived_seed(seed_, "scenario/" + std::string(name) + "/" + std::to_string(i));
+        scenarios_.push_back({{scenario, seed, i % 2 == 0}, {}});
+      }
     }
     for (std::size_t file = 0; file < files_.size(); ++file) {
       const auto& scans = files_[file].scans;
@@ -106,6 +141,10 @@ class MappingSection : public Section {
     for (DriveEntry& entry : drives_) {
       jobs.push_back({std::string(entry.variant.method) + " in " + worlds_[entry.world].name,
                       [this, &entry](const auto& stop) { drive(entry, stop); }});
+    }
+    for (ScenarioEntry& entry : scenarios_) {
+      jobs.push_back({"scenario " + std::string(enum_name(entry.run.scenario)),
+                      [this, &entry](const auto& stop) { play(entry, stop); }});
     }
     for (LogEntry& entry : logs_) {
       jobs.push_back({"landmarks on " + files_[entry.file].name,
@@ -139,6 +178,22 @@ class MappingSection : public Section {
                         {"map_lines", q.map_lines},
                         {"map_precision", q.map_precision},
                         {"map_recall", q.map_recall}});
+    }
+    auto& scenarios = object["scenarios"] = nlohmann::ordered_json::array();
+    for (const ScenarioEntry& entry : scenarios_) {
+      const ScenarioOutcome& o = entry.outcome;
+      nlohmann::ordered_json scenario{{"scenario", std::string(enum_name(entry.run.scenario))},
+                                      {"seed", entry.run.seed},
+                                      {"odometry", entry.run.odometry},
+                                      {"scans", o.scans},
+                                      {"tracking", o.tracking},
+                                      {"ambiguous", o.ambiguous},
+                                      {"lost", o.lost},
+                                      {"confident_wrong", o.confident_wrong},
+                                      {"largest_tracked", o.largest_tracked}};
+      if (o.lost_after) scenario["lost_after"] = *o.lost_after;
+      if (o.found_after) scenario["found_after"] = *o.found_after;
+      scenarios.push_back(std::move(scenario));
     }
     auto& logs = object["logs"] = nlohmann::ordered_json::array();
     for (const LogEntry& entry : logs_) {
@@ -187,6 +242,7 @@ class MappingSection : public Section {
            fixed(100.0 * q.map_recall, 1)});
     }
     page.table(table);
+    write_scenarios(page);
     if (logs_.empty()) return;
     page.heading(3, "Recorded logs");
     page.paragraph(
@@ -238,10 +294,52 @@ class MappingSection : public Section {
                               fixed(entry.quality.mean_nees(), 2));
       }
     }
+    std::size_t wrong = 0;
+    for (const ScenarioEntry& entry : scenarios_) {
+      wrong += entry.outcome.confident_wrong > 0 ? 1 : 0;
+    }
+    if (!scenarios_.empty()) {
+      rows.push_back({"wrong runs of scenarios",
+                      std::to_string(wrong) + " of " + std::to_string(scenarios_.size()), ""});
+      rows.back().resize(rows.front().size());
+    }
     return rows;
   }
 
  private:
+  [[nodiscard]] ScenarioSum sum_of(LocalizationScenario scenario) const {
+    ScenarioSum sum;
+    for (const ScenarioEntry& entry : scenarios_) {
+      if (entry.run.scenario == scenario) sum.add(entry.outcome);
+    }
+    return sum;
+  }
+
+  void write_scenarios(HtmlPage& page) const {
+    if (scenarios_.empty()) return;
+    page.heading(3, "What makes robots believe in a wrong pose");
+    page.paragraph(
+        "Runs of a minute with landmarks, every other one without wheel odometry. A run is wrong "
+        "when one of its poses is beyond four sigma while the status is tracking. Lost and found "
+        "again: of robots that are carried away or blinded after 25 s; times are of the slowest.");
+    HtmlTable table{
+        {},
+        {"scenario", "runs", "wrong runs", "tracking [%]", "ambiguous [%]", "lost [%]",
+         "largest error tracked [mm]", "lost runs", "after [s]", "found runs", "after [s]"},
+        {},
+        1};
+    for (const auto& [scenario, name] : EnumNames<LocalizationScenario>::names) {
+      const ScenarioSum sum = sum_of(scenario);
+      table.rows.push_back({std::string(name), std::to_string(sum.runs),
+                            std::to_string(sum.wrong_runs), fixed(sum.percent(sum.tracking), 1),
+                            fixed(sum.percent(sum.ambiguous), 1), fixed(sum.percent(sum.lost), 1),
+                            fixed(1e3 * sum.largest_tracked, 1), std::to_string(sum.lost_runs),
+                            fixed(sum.slowest_lost, 1), std::to_string(sum.found_runs),
+                            fixed(sum.slowest_found, 1)});
+    }
+    page.table(table);
+  }
+
   static double tenth(const std::vector<double>& values, bool last) {
     const auto count = static_cast<std::ptrdiff_t>(std::max<std::size_t>(values.size() / 10, 1));
     if (values.empty()) return 0.0;
@@ -290,6 +388,12 @@ class MappingSection : public Section {
     entry.quality = judge_localizer(std::ref(localizer), extraction, world, drive);
   }
 
+  void play(ScenarioEntry& entry, const std::stop_token& stop) const {
+    Extraction extraction = extraction_with("inverse_range", "propagated", stop);
+    Localizer localizer = Localizers::make<Localizer>("landmarks", {});
+    entry.outcome = run_scenario(entry.run, std::ref(localizer), extraction);
+  }
+
   void localize(LogEntry& entry, const std::stop_token& stop) const {
     const ScanFile& file = files_[entry.file];
     Extraction extraction = extraction_with("inverse_range", "propagated", stop);
@@ -315,11 +419,14 @@ class MappingSection : public Section {
       input.corners = extraction.corners();
       input.points = points;
       input.wants_map = &scan == &file.scans.back();
-      if (entry.has_odometry && before && scan.odometry) {
-        const Pose2 increment = between(*before, *scan.odometry);
+      // That of the scan is the last one before it.
+      std::optional<Pose2> now;
+      if (entry.has_odometry && !scan.odometry.empty()) now = scan.odometry.back().pose;
+      if (before && now) {
+        const Pose2 increment = between(*before, *now);
         input.motion = PoseEstimate{increment, OdometryNoise{}.covariance(increment)};
       }
-      before = scan.odometry;
+      before = now;
       const double start = processor_seconds();
       localizer(input, result);
       seconds.push_back(processor_seconds() - start);
@@ -361,6 +468,7 @@ class MappingSection : public Section {
   SensorModel noise_;
   std::vector<PoseRelation> relations_;
   std::vector<DriveEntry> drives_;
+  std::vector<ScenarioEntry> scenarios_;
   std::vector<LogEntry> logs_;
 };
 

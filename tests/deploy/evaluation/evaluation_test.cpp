@@ -74,6 +74,23 @@ std::string csv_scan() {
   return text;
 }
 
+TEST(Evaluation, MapsAndPosesAreJudgedByTheTruth) {
+  EvaluationOptions options = quick("mapping");
+  options.worlds = {"square_room"};
+  options.laps = 0.2;
+  options.scenarios = 0;
+  const json report = report_of(options)["mapping"];
+  EXPECT_TRUE(report["scenarios"].empty());
+  EXPECT_TRUE(report["logs"].empty());
+  ASSERT_EQ(report["simulated"].size(), 4U);
+  for (const json& drive : report["simulated"]) {
+    EXPECT_EQ(drive["environment"], "square_room");
+    EXPECT_EQ(drive["tracking"], drive["scans"]);
+    EXPECT_LT(drive["translation_median"], 0.05);
+    EXPECT_GT(drive["map_recall"], 0.9);
+  }
+}
+
 TEST(Evaluation, ConsistencyIsThatOfADirectComputation) {
   const json report = report_of(quick("consistency"));
   EXPECT_EQ(report["version"], "1.2.3");

@@ -75,6 +75,24 @@ TEST(EvaluationOptions, BadScanFilesAreToldWithTheirPlace) {
   EXPECT_THAT(complaint<sensor_bridge::ScanFileError>(options), HasSubstr("absent.csv"));
 }
 
+TEST(EvaluationOptions, RelationsAreReadWithTheirOffset) {
+  const TemporaryFolder folder;
+  EvaluationOptions options;
+  options.relations = folder.write("r", "# t1 t2 x y z roll pitch yaw\n12 13 1 2 0 0 0 0.5\n");
+  EXPECT_THAT(complaint<OptionError>(options), HasSubstr("--scans"));
+  options.scans = {folder.write("scan.csv", "0.0,1.0\n0.1,1.0\n").string()};
+  options.relations_offset = 10.0;
+  const EvaluationSetup setup = prepare(options);
+  ASSERT_EQ(setup.relations.size(), 1U);
+  EXPECT_DOUBLE_EQ(setup.relations[0].first, 2.0);
+  EXPECT_DOUBLE_EQ(setup.relations[0].second, 3.0);
+  EXPECT_DOUBLE_EQ(setup.relations[0].relative.y, 2.0);
+  EXPECT_DOUBLE_EQ(setup.relations[0].relative.theta, 0.5);
+  options.relations = folder.write("bad", "1 2 0 0 0 0 0 0\n1 2 0 x 0 0 0 0\n");
+  EXPECT_THAT(complaint<sensor_bridge::ScanFileError>(options),
+              HasSubstr(options.relations + ":2:7: a relation is eight numbers"));
+}
+
 TEST(EvaluationOptions, AFolderOfWorldsIsReadByName) {
   const TemporaryFolder folder;
   EvaluationOptions options;
