@@ -44,6 +44,8 @@ EvaluationOptions quick(const std::string& section) {
   options.segmenters = {"iepf"};
   options.trials = 40;
   options.scans_per_world = 3;
+  options.laps = 0.02;
+  options.scenarios = 0;
   options.timing = false;
   options.version = "1.2.3";
   return options;
@@ -78,7 +80,6 @@ TEST(Evaluation, MapsAndPosesAreJudgedByTheTruth) {
   EvaluationOptions options = quick("mapping");
   options.worlds = {"square_room"};
   options.laps = 0.2;
-  options.scenarios = 0;
   const json report = report_of(options)["mapping"];
   EXPECT_TRUE(report["scenarios"].empty());
   EXPECT_TRUE(report["logs"].empty());
