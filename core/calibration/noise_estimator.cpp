@@ -120,7 +120,7 @@ std::vector<NoiseBand> noise_bands(const ResidualTable& table, const SensorModel
   return result;
 }
 
-double incidence(const ResidualBlock& block) { return std::acos(std::min(1.0, block.cosine)); }
+double incidence_of(const ResidualBlock& block) { return std::acos(std::min(1.0, block.cosine)); }
 
 void describe(const ResidualTable& table, NoiseEstimate& estimate) {
   const SensorModel model = estimate.components.model();
@@ -136,7 +136,7 @@ void describe(const ResidualTable& table, NoiseEstimate& estimate) {
     if (residual_scale(squares, wall.points - 2.0) > 1.0) ++refuted;
     for (const ResidualBlock& block : table.blocks(wall)) {
       ranges.push_back(block.range);
-      incidences.push_back(incidence(block));
+      incidences.push_back(incidence_of(block));
     }
   }
   estimate.walls = table.walls().size();
@@ -149,7 +149,7 @@ void describe(const ResidualTable& table, NoiseEstimate& estimate) {
   estimate.steepest = quantile(std::move(incidences), 0.95);
   estimate.by_range = noise_bands(table, model, estimate.farthest,
                                   [](const ResidualBlock& block) { return block.range; });
-  estimate.by_incidence = noise_bands(table, model, steepest_band, incidence);
+  estimate.by_incidence = noise_bands(table, model, steepest_band, incidence_of);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t fewest_values = 50;  // that differ
 constexpr double smallest_step = 1e-4;     // [m]
 constexpr double apart = 2e-5;             // [m] values nearer to each other are the same
-constexpr double rounding = 2e-7;          // of a range in single precision
+constexpr double range_rounding = 2e-7;    // of a range in single precision
 constexpr double tolerance = 0.05;         // of a step; by chance a tenth of all are within it
-constexpr double enough = 0.99;            // of the values
+constexpr double enough_values = 0.99;     // of the values
 
 double off_multiple(double value, double step) {
   return std::abs(value - step * std::round(value / step));
@@ -59,9 +59,10 @@ double quantization_step(std::span<const float> ranges) {
   if (step < 0.99 * smallest_step) return 0.0;
   std::size_t fitting = 0;
   for (const double value : values) {
-    if (off_multiple(value, step) < tolerance * step + rounding * value) ++fitting;
+    if (off_multiple(value, step) < tolerance * step + range_rounding * value) ++fitting;
   }
-  return static_cast<double>(fitting) >= enough * static_cast<double>(values.size()) ? step : 0.0;
+  return static_cast<double>(fitting) >= enough_values * static_cast<double>(values.size()) ? step
+                                                                                            : 0.0;
 }
 
 }  // namespace quoin

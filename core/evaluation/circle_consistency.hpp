@@ -57,7 +57,4 @@ struct CircleConsistency {
                                                          const SensorModel& noise,
                                                          std::size_t trials, std::uint64_t seed);
 
-/// Quantile of the chi-square distribution with three degrees of freedom at 95 %.
-inline constexpr double chi_square_3_95 = 7.814727903251178;
-
 }  // namespace quoin

@@ -13,10 +13,10 @@
 namespace quoin {
 namespace {
 
-constexpr double same_point = 1e-3;  // [m]
+constexpr double same_corner = 1e-3;  // [m]
 
-bool enough(const VisibleWall& wall, std::size_t far_ray, const Eigen::Vector2d& corner,
-            const SeenWalls& seen) {
+bool sees_enough(const VisibleWall& wall, std::size_t far_ray, const Eigen::Vector2d& corner,
+                 const SeenWalls& seen) {
   const double range = wall.ranges[far_ray];
   const double bearing = wall.bearings[far_ray];
   const Eigen::Vector2d far(range * std::cos(bearing), range * std::sin(bearing));
@@ -44,10 +44,10 @@ CornerTruth corner_truth(const World& world, const Pose2& pose, std::size_t rays
   for (const VisibleCorner& corner : scene.corners) {
     const VisibleWall& first = scene.walls[corner.first];
     const VisibleWall& second = scene.walls[corner.second];
-    if (!enough(first, 0, corner.position, seen)) continue;
-    if (!enough(second, second.bearings.size() - 1, corner.position, seen)) continue;
+    if (!sees_enough(first, 0, corner.position, seen)) continue;
+    if (!sees_enough(second, second.bearings.size() - 1, corner.position, seen)) continue;
     const auto same = std::ranges::find_if(truth.positions, [&](const Eigen::Vector2d& position) {
-      return (position - corner.position).norm() <= same_point;
+      return (position - corner.position).norm() <= same_corner;
     });
     if (same == truth.positions.end()) continue;
     truth.to_be_found[static_cast<std::size_t>(same - truth.positions.begin())] = true;

@@ -16,8 +16,8 @@
 namespace quoin {
 namespace {
 
-constexpr double same_direction = 1e-6;  // [rad]
-constexpr double same_distance = 1e-3;   // [m]
+constexpr double same_alpha = 1e-6;     // [rad]
+constexpr double same_distance = 1e-3;  // [m]
 
 /// The lines of the walls as seen from a pose; walls of one line have the same number.
 struct WallLines {
@@ -28,7 +28,7 @@ struct WallLines {
     for (const Wall& wall : world.walls) {
       const Line line = wall_line(wall, pose);
       const auto same = std::ranges::find_if(lines, [&](const Line& other) {
-        return std::abs(normalized_angle(line.alpha - other.alpha)) <= same_direction &&
+        return std::abs(normalized_angle(line.alpha - other.alpha)) <= same_alpha &&
                std::abs(line.r - other.r) <= same_distance;
       });
       line_of_wall.push_back(static_cast<std::size_t>(same - lines.begin()));

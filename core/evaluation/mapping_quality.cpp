@@ -11,11 +11,11 @@
 #include "core/geometry/angle.hpp"
 #include "core/simulation/random.hpp"
 #include "core/simulation/scanner.hpp"
+#include "core/statistics/chi_square.hpp"
 
 namespace quoin {
 namespace {
 
-constexpr double chi_square_3_95 = 7.814727903251179;
 constexpr double four_sigma_3 = 22.06;     // chi square of 3, 99.9937 %: 4 sigma of one dimension
 constexpr double on_wall_distance = 0.05;  // [m]
 constexpr double on_wall_angle = 3.0 * pi / 180.0;

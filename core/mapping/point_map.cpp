@@ -31,7 +31,7 @@ constexpr double on_surface = 0.10;         // [m]
 constexpr float same_direction = 0.8F;      // cosine of normals
 constexpr double floor_position = 0.015;    // [m] of a registration
 constexpr double floor_heading = 0.004;     // [rad]
-constexpr double largest_gap = 0.3;         // [m] between neighbours of one surface
+constexpr double surface_gap = 0.3;         // [m] between neighbours of one surface
 constexpr int largest_side = 4000;          // cells
 
 Eigen::Vector2f rotated(float c, float s, const Eigen::Vector2f& v) {
@@ -56,7 +56,7 @@ void surface_points(std::span<const Eigen::Vector2d> points, double spacing, dou
       for (std::size_t step = 1; step <= 8; ++step) {
         if (side == 0 ? i < step : i + step >= points.size()) break;
         const Eigen::Vector2d& q = side == 0 ? points[i - step] : points[i + step];
-        if ((q - *before).norm() > std::max(largest_gap, 0.05 * p.norm())) break;
+        if ((q - *before).norm() > std::max(surface_gap, 0.05 * p.norm())) break;
         before = &q;
         ends[side] = q;
         if ((q - p).norm() >= wanted) break;

@@ -14,7 +14,7 @@ namespace {
 
 // Adding and subtracting it rounds to the nearest integer, and leaves that integer in the low bits
 // of the sum: 1.5 * 2^52.
-constexpr double rounding = 6755399441055744.0;
+constexpr double to_nearest = 6755399441055744.0;
 constexpr double quarters_per_radian = 0.6366197723675814;  // 2 / pi
 
 // pi / 2 in two parts. The first has 33 bits, so that its product with the number of quarter turns
@@ -57,8 +57,8 @@ template <class Number>
   for (std::size_t i = 0; i < count; ++i) {
     const auto range = static_cast<double>(from_range[i]);
     const auto bearing = static_cast<double>(from_bearing[i]);
-    const double shifted = bearing * quarters_per_radian + rounding;
-    const double quarters = shifted - rounding;
+    const double shifted = bearing * quarters_per_radian + to_nearest;
+    const double quarters = shifted - to_nearest;
     const auto quadrant = std::bit_cast<std::uint64_t>(shifted);
     double reduced = bearing - quarters * quarter_high;
     reduced -= quarters * quarter_low;

@@ -16,13 +16,13 @@ namespace {
 /// As bit patterns. Compared as integers, positive numbers keep their order, and NaN and infinity
 /// are beyond all limits. This file is compiled with -ffinite-math-only, which assumes that there
 /// is no NaN.
-struct Limits {
+struct ScanLimits {
   std::int32_t range_min, range_max, bearing_max;
 };
 
 constexpr std::int32_t bits_of(float number) { return std::bit_cast<std::int32_t>(number); }
 
-Limits limits_of(const ScanView& scan) {
+ScanLimits limits_of(const ScanView& scan) {
   constexpr std::int32_t infinity = 0x7f800000;
   const std::int32_t range_max = bits_of(scan.range_max);
   return {std::max(bits_of(scan.range_min), 1),
@@ -30,7 +30,7 @@ Limits limits_of(const ScanView& scan) {
           bits_of(static_cast<float>(largest_bearing))};
 }
 
-inline int is_valid(float bearing, float range, const Limits& limits) {
+inline int is_valid(float bearing, float range, const ScanLimits& limits) {
   constexpr std::int32_t all_but_sign = 0x7fffffff;
   return static_cast<int>(bits_of(range) >= limits.range_min) &
          static_cast<int>(bits_of(range) <= limits.range_max) &
@@ -39,7 +39,7 @@ inline int is_valid(float bearing, float range, const Limits& limits) {
 
 QUOIN_MULTIVERSION
 int count_valid(const float* __restrict bearings, const float* __restrict ranges, std::size_t count,
-                Limits limits) {
+                ScanLimits limits) {
   int valid = 0;
   for (std::size_t i = 0; i < count; ++i) valid += is_valid(bearings[i], ranges[i], limits);
   return valid;
@@ -56,7 +56,7 @@ struct Readings {
 
 /// The valid ones; copied to the working memory of `points` when there are others between them.
 Readings valid_readings(const Readings& all, const ScanView& scan, Points& points) {
-  const Limits limits = limits_of(scan);
+  const ScanLimits limits = limits_of(scan);
   const std::size_t count = all.ranges.size();
   const int all_valid = count_valid(all.bearings.data(), all.ranges.data(), count, limits);
   if (static_cast<std::size_t>(all_valid) == count) return all;

@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double sensor_clearance = 0.4;  // [m]
-constexpr double spacing = 0.35;          // [m] between things that stand apart
+constexpr double least_clearance = 0.4;  // [m]
+constexpr double spacing = 0.35;         // [m] between things that stand apart
 
 double distance_to(const Wall& wall, const Vector2d& point) {
   const Vector2d along = wall.end - wall.start;
@@ -249,7 +249,7 @@ class Builder {
     Vector2d place = Vector2d::Zero();
     do {
       place = {random_.uniform(0.0, width_), random_.uniform(0.0, depth_)};
-    } while (!free(place, sensor_clearance - spacing));
+    } while (!free(place, least_clearance - spacing));
     world_.path = {{place.x(), place.y(), random_.uniform(-pi, pi)}};
     return std::move(world_);
   }

@@ -11,7 +11,7 @@
 namespace quoin {
 namespace {
 
-constexpr double same_point = 1e-3;     // [m] as exactly as files of worlds are written
+constexpr double same_vertex = 1e-3;    // [m] as exactly as files of worlds are written
 constexpr double exact = 1e-9;          // [m]
 constexpr double smallest_sine = 1e-6;  // of the angle between walls that are not parallel
 
@@ -37,7 +37,7 @@ std::optional<Eigen::Vector2d> meeting_point(const Wall& first, const Wall& seco
   const double along_first = (apart.x() * b.y() - apart.y() * b.x()) / sine;
   const double along_second = (apart.x() * a.y() - apart.y() * a.x()) / sine;
   const auto within = [](double along, double length) {
-    return along >= -same_point && along <= length + same_point;
+    return along >= -same_vertex && along <= length + same_vertex;
   };
   if (!within(along_first, first_length) || !within(along_second, second_length)) {
     return std::nullopt;
@@ -62,7 +62,7 @@ std::vector<Eigen::Vector2d> World::corners() const {
       const auto point = meeting_point(walls[i], walls[k]);
       if (!point) continue;
       const bool known = std::ranges::any_of(corners, [&](const Eigen::Vector2d& corner) {
-        return (corner - *point).norm() <= same_point;
+        return (corner - *point).norm() <= same_vertex;
       });
       if (!known) corners.push_back(*point);
     }

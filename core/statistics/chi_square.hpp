@@ -9,6 +9,9 @@ namespace quoin {
 /// Quantile of the chi-square distribution with two degrees of freedom at 95 %, -2 ln(0.05).
 inline constexpr double chi_square_2_95 = 5.991464547107979;
 
+/// The same with three degrees of freedom.
+inline constexpr double chi_square_3_95 = 7.814727903251178;
+
 /// Quantile of the standard normal distribution at 97.5 %.
 inline constexpr double normal_97_5 = 1.959963984540054;
 

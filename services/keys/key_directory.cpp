@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <random>
 #include <stdexcept>
 #include <sys/stat.h>
@@ -19,10 +18,6 @@ namespace {
 
 constexpr mode_t mode_private = 0600;  // for the owner alone
 constexpr mode_t mode_public = 0644;
-
-std::runtime_error file_error(const std::filesystem::path& file, int error) {
-  return std::runtime_error(file.string() + ": " + std::strerror(error));
-}
 
 /// Makes the folder and those above it, for the owner alone, unless they are there.
 void make_private_folder(const std::filesystem::path& folder) {

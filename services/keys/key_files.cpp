@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::size_t largest_file = 1U << 20U;  // [byte]
 
+}  // namespace
+
 std::runtime_error file_error(const std::filesystem::path& file, int error) {
   return std::runtime_error(file.string() + ": " + std::strerror(error));
 }
-
-}  // namespace
 
 std::string read_file(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);

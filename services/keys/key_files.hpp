@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,10 @@
 
 namespace quoin {
 
-/// Throws std::runtime_error "FILE: reason". Files of more than a megabyte are refused.
+/// "FILE: reason" of an errno.
+[[nodiscard]] std::runtime_error file_error(const std::filesystem::path& file, int error);
+
+/// Throws file_error. Files of more than a megabyte are refused.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 
 /// Identities that are no services. No service can be called so: its name has no hyphen.

@@ -138,7 +138,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds longest_end{20};
 // That a service which is to stop may be late with a sign of life: it works on something that takes
 // for ever, such as a file without an end.
-constexpr std::chrono::milliseconds longest_silence{1500};
+constexpr std::chrono::milliseconds latest_sign_of_life{1500};
 constexpr std::chrono::milliseconds look_period{100};
 
 /// Runs services in threads of their own and ends them in the order of the deployment.
@@ -236,8 +236,8 @@ class Runner {
   [[nodiscard]] bool one_hangs() const {
     const auto now = Clock::now();
     return std::ranges::any_of(entries_, [&](const auto& entry) {
-      return !entry->ended && now - longest_silence > entry->asked_to_stop &&
-             !entry->service->pulse.alive(now, longest_silence);
+      return !entry->ended && now - latest_sign_of_life > entry->asked_to_stop &&
+             !entry->service->pulse.alive(now, latest_sign_of_life);
     });
   }
 
