@@ -52,7 +52,8 @@ TEST(Endpoint, SaysWhatIsWrongAndWhatWouldBeRight) {
   EXPECT_THAT(reason(""), HasSubstr("it is empty"));
   EXPECT_THAT(reason("http://lidar"), HasSubstr("of no known kind"));
   EXPECT_THAT(reason("/dev/tty USB0"), HasSubstr("a space or control character"));
-  EXPECT_THAT(reason(std::string("/dev/tty\0", 9)), HasSubstr("'/dev/tty?': a space or control"));
+  EXPECT_THAT(reason(std::string("/dev/tty\0", 9)),
+              HasSubstr("'/dev/tty\\x00': a space or control"));
   EXPECT_THAT(reason("tcp://"), HasSubstr("no host"));
   EXPECT_THAT(reason("tcp://:20108"), HasSubstr("no host"));
   EXPECT_THAT(reason("tcp://lidar:0"), HasSubstr("port '0' is not within 1..65535"));
