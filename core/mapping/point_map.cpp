@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <queue>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -16,23 +18,23 @@
 namespace quoin {
 namespace {
 
-constexpr double cell = 0.05;               // [m]
-constexpr int stamp_cells = 6;              // around a point
-constexpr double likelihood_stddev = 0.1;   // [m]
-constexpr float same_point = 0.03F;         // [m]
-constexpr int block = 8;                    // cells to a side that share a bound
-constexpr int stride = 2;                   // cells from pose to pose of the search
-constexpr std::size_t most_searched = 100;  // points of a scan
-constexpr double robust_scale = 0.05;       // [m]
-constexpr double round_stddev = 0.04;       // [m] of points without a direction
-constexpr double least_stddev = 0.01;       // [m] of a point
-constexpr double same_error = 10.0;         // neighbouring points that share their error
-constexpr double on_surface = 0.10;         // [m]
-constexpr float same_direction = 0.8F;      // cosine of normals
-constexpr double floor_position = 0.015;    // [m] of a registration
-constexpr double floor_heading = 0.004;     // [rad]
-constexpr double surface_gap = 0.3;         // [m] between neighbours of one surface
-constexpr int largest_side = 4000;          // cells
+constexpr double cell = 0.05;                   // [m]
+constexpr int stamp_cells = 6;                  // around a point
+constexpr double likelihood_stddev = 0.1;       // [m]
+constexpr float same_point = 0.03F;             // [m]
+constexpr std::array<int, 2> blocks_of{8, 16};  // cells to a side that share a bound, by level
+constexpr int stride = 2;                       // cells from pose to pose of the search
+constexpr std::size_t most_searched = 100;      // points of a scan
+constexpr double robust_scale = 0.05;           // [m]
+constexpr double round_stddev = 0.04;           // [m] of points without a direction
+constexpr double least_stddev = 0.01;           // [m] of a point
+constexpr double same_error = 10.0;             // neighbouring points that share their error
+constexpr double on_surface = 0.10;             // [m]
+constexpr float same_direction = 0.8F;          // cosine of normals
+constexpr double floor_position = 0.015;        // [m] of a registration
+constexpr double floor_heading = 0.004;         // [rad]
+constexpr double surface_gap = 0.3;             // [m] between neighbours of one surface
+constexpr int largest_side = 4000;              // cells
 
 Eigen::Vector2f rotated(float c, float s, const Eigen::Vector2f& v) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
@@ -95,7 +97,7 @@ void PointMap::clear(const Eigen::Vector2d& center, double reach) {
   const auto cells = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
   nearest_.assign(cells, -1);
   likelihood_.assign(cells, 0);
-  is_pooled_ = false;
+  for (auto& pooled : pooled_) pooled.clear();
 }
 
 void PointMap::add(const Pose2& pose, std::span<const SurfacePoint> points) {
@@ -122,7 +124,7 @@ void PointMap::mark(std::size_t point_index) {
   const int column = static_cast<int>(std::floor((at.x() - corner_.x()) / cell));
   const int row = static_cast<int>(std::floor((at.y() - corner_.y()) / cell));
   const auto index = static_cast<std::int32_t>(point_index);
-  is_pooled_ = false;
+  for (auto& pooled : pooled_) pooled.clear();
   for (int r = std::max(0, row - stamp_cells); r <= std::min(side_ - 1, row + stamp_cells); ++r) {
     for (int c = std::max(0, column - stamp_cells); c <= std::min(side_ - 1, column + stamp_cells);
          ++c) {
@@ -162,29 +164,33 @@ const SurfacePoint* PointMap::nearest(const Eigen::Vector2d& point) const {
 }
 
 /// The largest likelihood of the block of cells to the right of and above each cell.
-void PointMap::pool() {
-  if (is_pooled_) return;
+void PointMap::pool(std::size_t level) {
+  std::vector<std::uint8_t>& pooled = pooled_[level];
+  if (!pooled.empty()) return;
   const auto side = static_cast<std::size_t>(side_);
-  pooled_ = likelihood_;
-  for (std::size_t step = 1; step < block; step *= 2) {  // rows and columns, doubling the block
+  std::size_t step = 1;
+  if (level > 0) {
+    pool(level - 1);
+    step = static_cast<std::size_t>(blocks_of[level - 1]);
+  }
+  pooled = level > 0 ? pooled_[level - 1] : likelihood_;
+  for (; step < static_cast<std::size_t>(blocks_of[level]); step *= 2) {  // doubles the block
     for (std::size_t r = 0; r < side; ++r) {
-      std::uint8_t* line = pooled_.data() + r * side;
+      std::uint8_t* line = pooled.data() + r * side;
       for (std::size_t c = 0; c + step < side; ++c) line[c] = std::max(line[c], line[c + step]);
     }
     for (std::size_t r = 0; r + step < side; ++r) {
-      std::uint8_t* line = pooled_.data() + r * side;
+      std::uint8_t* line = pooled.data() + r * side;
       const std::uint8_t* above = line + step * side;
       for (std::size_t c = 0; c < side; ++c) line[c] = std::max(line[c], above[c]);
     }
   }
-  is_pooled_ = true;
 }
 
 std::vector<PointMap::Candidate> PointMap::search(std::span<const SurfacePoint> scan,
                                                   const PoseWindow& window, std::size_t count) {
   std::vector<Candidate> found;
   if (scan.empty() || empty()) return found;
-  pool();
   const std::size_t used = std::min(scan.size(), most_searched);
   std::vector<Eigen::Vector2f> points(used);
   double far = 0.0;
@@ -194,12 +200,21 @@ std::vector<PointMap::Candidate> PointMap::search(std::span<const SurfacePoint> 
   }
   const double turn_step = std::clamp(1.5 * cell * stride / std::max(far, 0.1), 0.005, 0.035);
   const int turns = static_cast<int>(std::ceil(window.turn / turn_step));
-  const int blocks = static_cast<int>(std::ceil(2.0 * window.translation / (cell * block)));
+  constexpr int block = blocks_of[0];
+  const int width = static_cast<int>(std::ceil(2.0 * window.translation / (cell * block))) * block;
+  // Large blocks pay in large windows alone.
+  const std::size_t top = width > 2 * blocks_of[1] ? 1 : 0;
+  pool(top);
   struct Block {
-    int turn, right, up;
     int bound;
+    std::size_t level;
+    int turn, up, right;
+    // The largest bound is next; of equal ones large blocks, whose parts may have it, too.
+    bool operator<(const Block& o) const {
+      return std::tie(bound, level, o.turn, o.up, o.right) <
+             std::tie(o.bound, o.level, turn, up, right);
+    }
   };
-  std::vector<Block> open;
   std::vector<std::array<int, 2>> cells(used);
   const double left = window.center.x - window.translation;
   const double below = window.center.y - window.translation;
@@ -214,38 +229,48 @@ std::vector<PointMap::Candidate> PointMap::search(std::span<const SurfacePoint> 
           static_cast<int>(std::floor((below + static_cast<double>(p.y()) - corner_.y()) / cell))};
     }
   };
-  const auto sum = [&](const std::vector<std::uint8_t>& grid, int right, int up) {
+  // Of blocks of `size` cells, some of which may be on the map where their first one is not.
+  const auto sum = [&](const std::vector<std::uint8_t>& grid, int size, int right, int up) {
     int total = 0;
     for (const auto& [x, y] : cells) {
       const int column = x + right;
       const int row = y + up;
-      if (column < 0 || row < 0 || column >= side_ || row >= side_) continue;
-      total += grid[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
-                    static_cast<std::size_t>(column)];
+      if (column <= -size || row <= -size || column >= side_ || row >= side_) continue;
+      total += grid[static_cast<std::size_t>(std::max(row, 0)) * static_cast<std::size_t>(side_) +
+                    static_cast<std::size_t>(std::max(column, 0))];
     }
     return total;
   };
-  for (int turn = -turns; turn <= turns; ++turn) {
-    place(turn);
-    for (int up = 0; up < blocks; ++up) {
-      for (int right = 0; right < blocks; ++right) {
-        open.push_back({turn, right * block, up * block, sum(pooled_, right * block, up * block)});
+  std::priority_queue<Block> open;
+  const auto add_blocks = [&](std::size_t level, int turn, int up, int right, int size) {
+    const int step = blocks_of[level];
+    for (int u = up; u < std::min(up + size, width); u += step) {
+      for (int r = right; r < std::min(right + size, width); r += step) {
+        open.push({sum(pooled_[level], step, r, u), level, turn, u, r});
       }
     }
+  };
+  for (int turn = -turns; turn <= turns; ++turn) {
+    place(turn);
+    add_blocks(top, turn, 0, 0, width);
   }
-  std::stable_sort(open.begin(), open.end(),
-                   [](const Block& a, const Block& b) { return a.bound > b.bound; });
   std::vector<Candidate> best;
   int highest = 0;
   int placed = turns + 1;
-  for (const Block& b : open) {
+  while (!open.empty()) {
+    const Block b = open.top();
+    open.pop();
     if (5 * b.bound < 4 * highest || b.bound == 0) break;
     if (placed != b.turn) place(placed = b.turn);
+    if (b.level > 0) {
+      add_blocks(b.level - 1, b.turn, b.up, b.right, blocks_of[b.level]);
+      continue;
+    }
     Candidate local;
     int local_sum = -1;
     for (int up = 0; up < block; up += stride) {
       for (int right = 0; right < block; right += stride) {
-        const int total = sum(likelihood_, b.right + right, b.up + up);
+        const int total = sum(likelihood_, 1, b.right + right, b.up + up);
         if (total <= local_sum) continue;
         local_sum = total;
         local.pose = {left + cell * (b.right + right), below + cell * (b.up + up),

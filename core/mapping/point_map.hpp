@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -52,8 +53,9 @@ struct PoseWindow {
 ///
 /// A grid of 5 cm holds for each cell its nearest point within 0.3 m and a likelihood
 /// exp(-d^2 / (2 0.1^2)) of its distance d. `search` sums likelihoods of the points of a scan over
-/// all poses of a window, block by block with the largest likelihood of each block as a bound
-/// (Olson 2009, Hess et al. 2016). `refine` is iterated least squares on
+/// all poses of a window, block by block with the largest likelihood of each block as a bound, in a
+/// large window in blocks of blocks (Olson 2009, Hess et al. 2016). `refine` is iterated least
+/// squares on
 ///
 ///     sum_i w(r_i) r_i^2,   r_i = n_i . (T p_i - q_i),   w(r) = 1 / (1 + (r / 0.05 m)^2)^2
 ///
@@ -93,7 +95,7 @@ class PointMap {
   void restore_cells();
   void mark(std::size_t point_index);
   [[nodiscard]] const SurfacePoint* nearest(const Eigen::Vector2d& point) const;
-  void pool();
+  void pool(std::size_t level);
 
   Eigen::Vector2d center_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // of cell 0
@@ -101,8 +103,8 @@ class PointMap {
   std::vector<SurfacePoint> points_;
   std::vector<std::int32_t> nearest_;     // index in points_, -1 where none is near
   std::vector<std::uint8_t> likelihood_;  // of 255
-  std::vector<std::uint8_t> pooled_;      // largest of the block of cells from this one on
-  bool is_pooled_ = false;
+  // Largest of the block of cells from this one on, for blocks of two sizes; empty until needed.
+  std::array<std::vector<std::uint8_t>, 2> pooled_;
 };
 
 }  // namespace quoin

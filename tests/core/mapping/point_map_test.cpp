@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/mapping/point_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/angle.hpp"
 #include "core/mapping/state_archive.hpp"
 
 namespace quoin {
@@ -68,6 +70,24 @@ TEST(PointMap, FindsAPoseInAWindow) {
   EXPECT_NEAR(refined.estimate.pose.theta, truth.theta, 0.003);
   EXPECT_GT(refined.share, 0.95);
   EXPECT_LT(map.share(scan, {1.5, -1.0, 1.0}), 0.3);
+}
+
+TEST(PointMap, FindsAllPlacesThatLookAlikeInALargeWindow) {
+  PointMap map;
+  map.clear({4.0, 0.0}, 12.0);
+  map.add({}, seen_from({}));
+  map.add({8.0, 1.0, 2.0}, seen_from({}));
+  const Pose2 truth{0.42, -0.31, 0.25};
+  const auto found = map.search(seen_from(truth), {{4.0, 0.0, 0.0}, 9.0, pi}, 20);
+  ASSERT_GE(found.size(), 2U);
+  const Pose2 other = compose({8.0, 1.0, 2.0}, truth);
+  for (const Pose2& place : {truth, other}) {
+    const bool is_found = std::any_of(found.begin(), found.begin() + 2, [&](const auto& candidate) {
+      const Pose2 apart = between(place, candidate.pose);
+      return std::hypot(apart.x, apart.y) < 0.15 && std::abs(apart.theta) < 0.05;
+    });
+    EXPECT_TRUE(is_found) << place.x << " " << place.y;
+  }
 }
 
 TEST(PointMap, LeavesTheDirectionOfAWallOpen) {
