@@ -68,11 +68,25 @@ std::vector<std::string> input_complaints(const msg::ServiceStatus& status) {
   return complaints;
 }
 
+namespace {
+
+/// Whether the topic is one that a service of this name, or an instance of it, writes. Whoever
+/// sends heartbeats may claim any.
+bool is_own(const std::string& topic, const std::string& service) {
+  const std::string name = service.substr(0, service.find('@'));
+  const std::string path = "/" + topic.substr(0, topic.rfind('/'));
+  return path.ends_with("/" + name);
+}
+
+}  // namespace
+
 std::vector<std::string> foreign_writers(const std::vector<const msg::ServiceStatus*>& statuses) {
   std::map<std::string, std::uint64_t> known;    // writers by topic
   std::map<std::string, std::uint64_t> matched;  // likewise, the most that a reader has
   for (const msg::ServiceStatus* status : statuses) {
-    for (const msg::OutputStatus& output : status->outputs()) ++known[output.topic()];
+    for (const msg::OutputStatus& output : status->outputs()) {
+      if (is_own(output.topic(), status->service())) ++known[output.topic()];
+    }
     for (const msg::InputStatus& input : status->inputs()) {
       std::uint64_t& most = matched[input.topic()];
       most = std::max<std::uint64_t>(most, input.writers());
