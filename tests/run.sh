@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Quoin authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds, and runs every test through CTest: the release build with everything, then all that
-# starts no processes under AddressSanitizer and UndefinedBehaviorSanitizer, what has threads under ThreadSanitizer, and
+# Installs what is missing, builds, and runs every test through CTest: the release build with everything, then all but the
+# integration tests under AddressSanitizer and UndefinedBehaviorSanitizer, what has threads under ThreadSanitizer, and
 # a short run of the fuzz targets; the format of the sources, and clang-tidy over them. What mostly waits runs beside what
 # compiles.
 set -euo pipefail
