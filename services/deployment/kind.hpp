@@ -34,8 +34,8 @@ struct InputPort {
 struct OutputPort {
   std::string type;  ///< of the table of topic types; no two of a kind have the same
   Rate rate = Rate::per_input;
-  /// Boolean parameter of the kind without which there is no such output; "" for those that always
-  /// are. The first output always is.
+  /// Parameter of the kind that decides whether there is this output: a switch, or a list of types
+  /// that names it. "" for those that always are.
   std::string parameter = {};
 };
 
