@@ -39,8 +39,20 @@ const char* const chain = R"(
   - {name: corners, kind: corner_estimation, input: lines, method: adjacent}
 )";
 
+// Waits for the result of a scan that was published from now on.
+bool next_corners_arrive(tests::CornerRecorder& corners) {
+  const std::int64_t now = runtime::now_ns();
+  return eventually([&] {
+    corners.poll();
+    return corners.messages().back().header().trace()[0].published() > now;
+  });
+}
+
 TEST(HostileNeighbour, ChangesNothingOfWhatServicesDo) {
-  const TestDeployment deployment(chain);
+  // A burst takes the place of scans that wait to be read, when a busy host lets them wait. What
+  // is tested is that nothing else of it costs one: queues hold two rounds of attacks, and each
+  // round is behind the services before the next begins.
+  const TestDeployment deployment(chain, "qos: feature\n");
   Process up = deployment.quoin({"up", "FILE", "--json"});
   runtime::Participant participant(deployment.participant("test"));
   StatusRecorder status(participant, deployment);
@@ -55,8 +67,7 @@ TEST(HostileNeighbour, ChangesNothingOfWhatServicesDo) {
     for (int i = 0; i < 30; ++i) {
       neighbour.listen();
       neighbour.attack();
-      const std::size_t before = corners.poll();
-      EXPECT_TRUE(corners.wait_for(before + 2)) << "nothing comes out after attack " << i;
+      ASSERT_TRUE(next_corners_arrive(corners)) << "nothing comes out after attack " << i;
     }
     EXPECT_GT(neighbour.counts().at("jump beyond all"), 20);
     EXPECT_GT(neighbour.counts().at("overlap"), 20);
