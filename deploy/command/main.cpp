@@ -22,13 +22,13 @@ int run(int argc, char** argv) {
       "Exit codes: 0 ok, 1 failure, 2 wrong usage or configuration, 3 input of a source unusable, "
       "4 scans that do not show what calibrate wants to know");
   const std::vector<Command> commands{
-      add_up(app),        add_apply(app),  add_check(app),      add_methods(app),
-      add_status(app),    add_echo(app),   add_compare(app),    add_draw(app),
-      add_evaluate(app),  add_export(app), add_record(app),     add_recording(app),
-      add_lidar(app),     add_map(app),    add_playback(app),   add_swap(app),
-      add_set(app),       add_keys(app),   add_discovery(app),  add_doctor(app),
-      add_calibrate(app), add_schema(app), add_completion(app), add_version(app),
-      add_view(app),      add_explain(app)};
+      add_up(app),        add_apply(app),   add_check(app),      add_methods(app),
+      add_status(app),    add_echo(app),    add_compare(app),    add_draw(app),
+      add_evaluate(app),  add_export(app),  add_record(app),     add_recording(app),
+      add_lidar(app),     add_map(app),     add_playback(app),   add_swap(app),
+      add_set(app),       add_keys(app),    add_discovery(app),  add_doctor(app),
+      add_calibrate(app), add_schema(app),  add_completion(app), add_version(app),
+      add_view(app),      add_explain(app), add_init(app)};
   try {
     parse(app, argc, argv);
     for (const Command& command : commands) {

@@ -43,6 +43,7 @@ my @floors = (
     [ 'deploy/diagnostics/',             14 ],
     [ 'deploy/orchestration/',           14 ],
     [ 'deploy/export/',                  14 ],
+    [ 'deploy/starter/',                 14 ],
     [ 'deploy/recordings/',              14 ],
     [ 'deploy/evaluation/',              14 ],
     [ 'deploy/calibration/',             15 ],
