@@ -17,14 +17,23 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 1
 fi
 
-missing=
-for package in $(cat -- "$@" | sed 's/#.*//'); do
-  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+is_installed() {
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null || true)
   # A package for several architectures answers once for each.
   case $status in
-    installed*) ;;
-    *) missing="$missing $package" ;;
+    installed*) return 0 ;;
+    *) return 1 ;;
   esac
+}
+
+missing=
+# Lines "name | other name" become words "name|other".
+for names in $(cat -- "$@" | sed 's/#.*//; s/ *| */|/g'); do
+  installed=false
+  for package in $(echo "$names" | tr '|' ' '); do
+    if is_installed "$package"; then installed=true; fi
+  done
+  if ! $installed; then missing="$missing $names"; fi
 done
 if [ -z "$missing" ]; then
   exit 0
@@ -39,9 +48,18 @@ else
   exit 1
 fi
 
-echo "Installing:$missing"
 # The words are meant to be split: a list of packages, and perhaps no sudo.
 # shellcheck disable=SC2086
 $as_root apt-get update --quiet
+wanted=
+for names in $missing; do
+  chosen=
+  for package in $(echo "$names" | tr '|' ' '); do
+    if [ -z "$chosen" ] && apt-cache show "$package" >/dev/null 2>&1; then chosen=$package; fi
+  done
+  # Where there is none, apt-get says so.
+  wanted="$wanted ${chosen:-${names%%|*}}"
+done
+echo "Installing:$wanted"
 # shellcheck disable=SC2086
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends $missing
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends $wanted

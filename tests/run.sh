@@ -34,6 +34,15 @@ for argument in "$@"; do
   esac
 done
 
+# Format, clang-tidy and fuzz targets are for clang 14, which Debian 12 has and Debian 13 has not.
+clang=true
+if ! command -v clang-format-14 >/dev/null && ! apt-cache show clang-format-14 >/dev/null 2>&1; then
+  echo "clang 14 is not to be had here: format, fuzz targets and clang-tidy are left out"
+  clang=false
+  fuzzing=false
+  tidy=false
+fi
+
 step() { printf '\n== %s\n' "$*"; }
 jobs=$(nproc)
 tests_at_once=$((jobs + 1))  # some of them wait most of the time
@@ -71,13 +80,14 @@ step "packages"
 deploy/install_packages.sh
 if ! $build_only; then
   deploy/install_packages.sh tests/packages.txt
+  if $clang; then deploy/install_packages.sh tests/packages_clang.txt; fi
   # What npm brings is for tests of the page alone; without it they are skipped.
   if command -v npm >/dev/null; then
     (cd tests/npm && npm ci --no-audit --no-fund) || echo "npm packages are missing: tests with them are skipped"
   fi
 fi
 
-if ! $build_only; then
+if $clang && ! $build_only; then
   step "format"
   tests/style.sh format
 fi

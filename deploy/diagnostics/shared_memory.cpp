@@ -3,6 +3,7 @@
 #include "deploy/diagnostics/shared_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fcntl.h>
 #include <fstream>
@@ -32,8 +33,16 @@ std::string group_of(std::string name) {
   return name;
 }
 
+// What the names of Fast DDS's files begin with.
+constexpr std::array<std::string_view, 3> beginnings = {
+    "fastrtps_",          // segments and ports of version 2
+    "fastdds_",           // of version 3
+    "fast_datasharing_",  // histories of either
+};
+
 bool of_fast_dds(const std::string& group) {
-  return group.starts_with("fastrtps_") || group.starts_with("fast_datasharing_");
+  return std::ranges::any_of(beginnings,
+                             [&](std::string_view begin) { return group.starts_with(begin); });
 }
 
 bool is_number(const std::string& text) {

@@ -52,14 +52,14 @@ my @floors = (
 # How many files the main file of a service may reach.
 # Recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 136,
-    'services/mapping/main.cpp'      => 136,
-    'services/recorder/main.cpp'     => 124,
-    'services/ros2_output/main.cpp'  => 125,
-    'services/segmentation/main.cpp' => 142,
-    'services/viewer/main.cpp'       => 193,
+    'services/localization/main.cpp' => 139,
+    'services/mapping/main.cpp'      => 139,
+    'services/recorder/main.cpp'     => 127,
+    'services/ros2_output/main.cpp'  => 126,
+    'services/segmentation/main.cpp' => 145,
+    'services/viewer/main.cpp'       => 196,
 );
-my $most_files_of_others = 118;
+my $most_files_of_others = 121;
 
 sub floor_of {
     my ($file) = @_;

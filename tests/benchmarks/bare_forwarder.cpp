@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   while (stopping == 0) {
     if (!take_bare(reader, wait_set, bytes, 200)) continue;
     bytes.resize(size);
-    while (!writer->write(&bytes) && lossless && stopping == 0) {
+    while (!quoin::runtime::fast_dds::write(*writer, &bytes) && lossless && stopping == 0) {
     }
   }
   return 0;

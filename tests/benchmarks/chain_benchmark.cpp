@@ -12,7 +12,6 @@
 #include <fstream>
 #include <idl/Control.h>
 #include <idl/Corners.h>
-#include <idl/CornersPubSubTypes.h>
 #include <idl/Lines.h>
 #include <idl/Scan.h>
 #include <idl/Segments.h>
@@ -155,7 +154,7 @@ class BareChain {
     bytes_.resize(size_);
     const std::int64_t now = runtime::now_ns();
     std::memcpy(bytes_.data(), &now, sizeof now);
-    while (!writer_->write(&bytes_)) {
+    while (!runtime::fast_dds::write(*writer_, &bytes_)) {
     }
   }
 

@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <memory>
 #include <vector>
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
-#include <fastdds/rtps/common/InstanceHandle.h>
-#include <fastdds/rtps/common/SerializedPayload.h>
-#include <fastrtps/utils/md5.h>
 
 #include "services/runtime/dds/entities.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
@@ -33,11 +29,6 @@ const topics::RawMessage& raw(const CdrSample& sample) {
   return *static_cast<const topics::RawMessage*>(sample.message);
 }
 
-std::size_t size_of(const CdrSample& sample) {
-  return sample.codec != nullptr ? topics::encoded_size(*sample.codec, sample.message)
-                                 : (raw(sample).cdr.size() + 3U) & ~std::size_t{3};
-}
-
 /// The number of bytes written; 0 when they do not fit.
 std::size_t write_raw(const topics::RawMessage& message, std::byte* out, std::size_t capacity) {
   const std::size_t size = (message.cdr.size() + 3U) & ~std::size_t{3};
@@ -51,70 +42,82 @@ std::size_t write_raw(const topics::RawMessage& message, std::byte* out, std::si
 
 CdrType::CdrType(const std::string& name, const topics::CdrCodec* codec)
     : key_codec_(codec != nullptr && codec->keyed ? codec : nullptr) {
+#ifdef QUOIN_FAST_DDS_2
   setName(name.c_str());
   // With type propagation on, nested types crash Fast DDS 2.9's discovery server and Cyclone DDS
-  // refuses to match.
+  // refuses to match. In version 3 types are propagated that were registered as type objects.
   auto_fill_type_information(false);
   auto_fill_type_object(false);
   m_typeSize = smallest_sample;
-  m_isGetKeyDefined = key_codec_ != nullptr;
+  m_isGetKeyDefined = keyed();
+#else
+  set_name(name);
+  max_serialized_type_size = smallest_sample;
+  is_compute_key_provided = keyed();
+#endif
 }
 
-bool CdrType::serialize(void* data, rtps::SerializedPayload_t* payload) {
+bool CdrType::write(const void* data, Payload& payload) {
   const auto& sample = *static_cast<const CdrSample*>(data);
-  auto* out = reinterpret_cast<std::byte*>(payload->data);
-  const std::size_t size = sample.codec != nullptr ? topics::encode(*sample.codec, sample.message,
-                                                                    out, payload->max_size)
-                                                   : write_raw(raw(sample), out, payload->max_size);
+  auto* out = reinterpret_cast<std::byte*>(payload.data);
+  const std::size_t size =
+      sample.codec != nullptr ? topics::encode(*sample.codec, sample.message, out, payload.max_size)
+                              : write_raw(raw(sample), out, payload.max_size);
   if (size == 0) return false;
-  payload->length = static_cast<std::uint32_t>(size);
-  payload->encapsulation = out[1] == std::byte{0} ? CDR_BE : CDR_LE;
+  payload.length = static_cast<std::uint32_t>(size);
+  payload.encapsulation = out[1] == std::byte{0} ? CDR_BE : CDR_LE;
   return true;
 }
 
-bool CdrType::deserialize(rtps::SerializedPayload_t* payload, void* data) {
+bool CdrType::read(const Payload& payload, void* data) {
   auto& sample = *static_cast<CdrSample*>(data);
-  const auto* in = reinterpret_cast<const std::byte*>(payload->data);
+  const auto* in = reinterpret_cast<const std::byte*>(payload.data);
   if (sample.codec != nullptr) {
     if (sample.check == nullptr) {
-      return topics::decode(*sample.codec, in, payload->length, sample.message);
+      return topics::decode(*sample.codec, in, payload.length, sample.message);
     }
     // DDS is to take it from the history in any case.
-    sample.refusal = sample.check->refusal({in, payload->length});
-    if (!sample.refusal && !topics::decode(*sample.codec, in, payload->length, sample.message)) {
+    sample.refusal = sample.check->refusal({in, payload.length});
+    if (!sample.refusal && !topics::decode(*sample.codec, in, payload.length, sample.message)) {
       sample.refusal = "not of its type";
     }
     return true;
   }
-  if (!topics::is_plain_cdr(in, payload->length)) return false;
-  static_cast<topics::RawMessage*>(sample.message)->cdr.assign(in, in + payload->length);
+  if (!topics::is_plain_cdr(in, payload.length)) return false;
+  static_cast<topics::RawMessage*>(sample.message)->cdr.assign(in, in + payload.length);
   return true;
 }
 
-std::function<std::uint32_t()> CdrType::getSerializedSizeProvider(void* data) {
-  return [sample = *static_cast<const CdrSample*>(data)] {
-    return static_cast<std::uint32_t>(size_of(sample));
-  };
+std::uint32_t CdrType::size_of(const void* data) {
+  const auto& sample = *static_cast<const CdrSample*>(data);
+  return static_cast<std::uint32_t>(sample.codec != nullptr
+                                        ? topics::encoded_size(*sample.codec, sample.message)
+                                        : (raw(sample).cdr.size() + 3U) & ~std::size_t{3});
 }
 
-bool CdrType::getKey(void* data, rtps::InstanceHandle_t* handle, bool force_md5) {
+bool CdrType::key_of_sample(const void* data, Handle& handle, bool force_md5) const {
   const auto& sample = *static_cast<const CdrSample*>(data);
   if (key_codec_ == nullptr) return false;
   if (sample.codec == key_codec_) return key_of(sample.message, handle, force_md5);
   if (sample.codec != nullptr) return false;
-  // Of bytes: whoever writes them gives what was a message once.
-  const topics::RawMessage& bytes = raw(sample);
+  return key_of_bytes(raw(sample).cdr.data(), raw(sample).cdr.size(), handle, force_md5);
+}
+
+// Whoever writes the bytes gives what was a message once.
+bool CdrType::key_of_bytes(const std::byte* cdr, std::size_t size, Handle& handle,
+                           bool force_md5) const {
+  if (key_codec_ == nullptr) return false;
   const std::unique_ptr<void, void (*)(void*)> message(key_codec_->create(), key_codec_->destroy);
-  return topics::decode(*key_codec_, bytes.cdr.data(), bytes.cdr.size(), message.get()) &&
+  return topics::decode(*key_codec_, cdr, size, message.get()) &&
          key_of(message.get(), handle, force_md5);
 }
 
-bool CdrType::key_of(const void* message, rtps::InstanceHandle_t* handle, bool force_md5) const {
+bool CdrType::key_of(const void* message, Handle& handle, bool force_md5) const {
   // The generated code has room for 255 characters of a string, and throws at longer ones.
   std::vector<char> key(
       std::max({key_codec_->key_size, key_codec_->size(message) + 8, handle_size}));
   eprosima::fastcdr::FastBuffer buffer(key.data(), key.size());
-  eprosima::fastcdr::Cdr out(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS);
+  eprosima::fastcdr::Cdr out(buffer, eprosima::fastcdr::Cdr::BIG_ENDIANNESS, fast_dds::xcdr1);
   try {
     key_codec_->serialize_key(message, out);
   } catch (const eprosima::fastcdr::exception::Exception&) {
@@ -122,23 +125,23 @@ bool CdrType::key_of(const void* message, rtps::InstanceHandle_t* handle, bool f
   }
   const auto* bytes = reinterpret_cast<unsigned char*>(key.data());
   if (!force_md5 && key_codec_->key_size <= handle_size) {
-    std::copy_n(bytes, handle_size, &handle->value[0]);
+    std::copy_n(bytes, handle_size, &handle.value[0]);
     return true;
   }
-  MD5 md5;
+  fast_dds::Md5 md5;
   md5.init();
-  md5.update(bytes, static_cast<unsigned int>(out.getSerializedDataLength()));
+  md5.update(bytes, static_cast<unsigned int>(fast_dds::size_of(out)));
   md5.finalize();
-  std::copy_n(md5.digest, handle_size, &handle->value[0]);
+  std::copy_n(md5.digest, handle_size, &handle.value[0]);
   return true;
 }
 
-void* CdrType::createData() {
+void* CdrType::create() const {
   return key_codec_ != nullptr ? new CdrSample{key_codec_->create(), key_codec_}
                                : new CdrSample{new topics::RawMessage(), nullptr};
 }
 
-void CdrType::deleteData(void* data) {
+void CdrType::destroy(void* data) {
   auto* sample = static_cast<CdrSample*>(data);
   if (sample->codec != nullptr) {
     sample->codec->destroy(sample->message);

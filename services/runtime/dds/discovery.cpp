@@ -7,15 +7,11 @@
 #include <string_view>
 #include <utility>
 
+#include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDescription.hpp>
-#include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/resources/TimedEvent.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 
 #include "core/text/printable.hpp"
 #include "services/runtime/dds/process_writers.hpp"
@@ -23,7 +19,7 @@
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = fast_dds::rtps;
 
 std::string foreign_name(std::string_view text) { return printable(text, Lines::one, 80); }
 
@@ -87,13 +83,30 @@ std::string time_text(std::int64_t nanoseconds) {
 }
 
 // The policies of discovery data have other names than those of the DDS classes.
-template <class Qos>
-EndpointPolicies discovered(const Qos& qos, const std::string& type) {
-  return {foreign_name(type),           qos.m_durability.kind,
-          qos.m_reliability.kind,       static_cast<int>(qos.m_ownership.kind),
-          qos.m_liveliness.kind,        qos.m_liveliness.lease_duration.to_ns(),
+#ifdef QUOIN_FAST_DDS_2
+template <class Data>
+EndpointPolicies discovered(const Data& data) {
+  const auto& qos = data.m_qos;
+  return {foreign_name(data.typeName().to_string()),
+          qos.m_durability.kind,
+          qos.m_reliability.kind,
+          static_cast<int>(qos.m_ownership.kind),
+          qos.m_liveliness.kind,
+          qos.m_liveliness.lease_duration.to_ns(),
           qos.m_deadline.period.to_ns()};
 }
+#else
+template <class Data>
+EndpointPolicies discovered(const Data& data) {
+  return {foreign_name(data.type_name.to_string()),
+          data.durability.kind,
+          data.reliability.kind,
+          static_cast<int>(data.ownership.kind),
+          data.liveliness.kind,
+          data.liveliness.lease_duration.to_ns(),
+          data.deadline.period.to_ns()};
+}
+#endif
 
 template <class Qos>
 EndpointPolicies own(const Qos& qos, const std::string& type) {
@@ -156,11 +169,22 @@ std::array<std::uint8_t, 16> key_of(const rtps::GUID_t& guid) {
   return key;
 }
 
+std::uint64_t incarnation_in(const std::vector<rtps::octet>& user_data) {
+  return announced_incarnation({reinterpret_cast<const char*>(user_data.data()), user_data.size()});
+}
+
+#ifdef QUOIN_FAST_DDS_2
 // Discovery data belong to Fast DDS, which lends them to its listeners read-only, but asks for no
 // more than this flag when the timer of a lease ends.
 void set_lease_check(const rtps::ParticipantProxyData& participant, bool wanted) {
   const_cast<rtps::ParticipantProxyData&>(participant).should_check_lease_duration = wanted;
 }
+#else
+// As network_qos makes it.
+bool is_server(const rtps::GuidPrefix_t& prefix) {
+  return prefix.value[0] == 'Q' && prefix.value[1] == 'n' && prefix.value[3] == 1;
+}
+#endif
 
 }  // namespace
 
@@ -274,22 +298,53 @@ bool KnownEndpoints::knows_server() const {
 
 // DDS checks the lease of all others itself, except among clients of a discovery server.
 bool KnownEndpoints::checks_lease(const Known& known) {
+#ifdef QUOIN_FAST_DDS_2
   return known.proxy->should_check_lease_duration && !known.lease_check_added;
+#else
+  return known.server;
+#endif
 }
 
-void KnownEndpoints::forget(const rtps::ParticipantProxyData& participant) {
-  const auto found = participants_.find(prefix_of(participant.m_guid));
+KnownEndpoints::Known& KnownEndpoints::learn(const Prefix& participant, const std::string& name,
+                                             const std::vector<std::uint8_t>& user_data,
+                                             bool is_new) {
+  if (is_new) {
+    ++discovered_;
+    newest_ = std::chrono::steady_clock::now();
+    discovered_changed_.notify_all();
+  }
+  Known& known = participants_[participant];
+  known.name = foreign_name(name);
+  known.observes = announced_topics(user_data);
+  known.vouched = true;
+  return known;
+}
+
+void KnownEndpoints::forget(const Prefix& participant) {
+  const auto theirs = [&](const auto& entry) { return entry.second.participant == participant; };
+  std::erase_if(writers_, theirs);
+  std::erase_if(readers_, theirs);
+  const auto found = participants_.find(participant);
   if (found == participants_.end()) return;
   const bool was_server = checks_lease(found->second);
+#ifdef QUOIN_FAST_DDS_2
   // A timer that ends now would find the place of this participant empty, and abort.
-  if (!was_server) set_lease_check(participant, false);
+  if (!was_server) set_lease_check(*found->second.proxy, false);
+#else
+  last_heard_->forget(participant);
+#endif
   participants_.erase(found);
   const auto lives = [](const auto& entry) { return checks_lease(entry.second); };
   if (!was_server || std::any_of(participants_.begin(), participants_.end(), lives)) return;
   for (auto& [prefix, known] : participants_) known.vouched = false;
 }
 
-std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& participants) {
+// Of a participant that a discovery server knows, its end is reported by the server, and what is
+// dropped here the server never brings back. A server that was restarted within the lease looks
+// like one that lives, though, and knows nothing of the dead.
+#ifdef QUOIN_FAST_DDS_2
+std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& participants,
+                                                      dds::DomainParticipant&) {
   std::vector<std::string> silent;
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
@@ -301,9 +356,6 @@ std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& pa
     const auto silence = now - known.proxy->last_received_message_tm();
     if (silence > lease) silent.push_back(name_of(prefix));
     if (checks_lease(known)) continue;
-    // Of a participant that a discovery server knows, its end is reported by the server, and what
-    // is dropped here the server never brings back. A server that was restarted within the lease
-    // looks like one that lives, though, and knows nothing of the dead.
     const bool drop = silence > (known.vouched ? leases_when_vouched : 1) * lease;
     // The check goes on for as long as it is wanted, and would end a pair that has nothing to say
     // to each other.
@@ -319,25 +371,15 @@ std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& pa
 
 void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
                                               rtps::ParticipantDiscoveryInfo&& info) {
+  using Info = rtps::ParticipantDiscoveryInfo;
   const std::lock_guard lock(mutex_);
   const Prefix prefix = prefix_of(info.info.m_guid);
-  if (info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT ||
-      info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
-    forget(info.info);
-    const auto theirs = [&](const auto& entry) { return entry.second.participant == prefix; };
-    std::erase_if(writers_, theirs);
-    std::erase_if(readers_, theirs);
+  if (info.status == Info::REMOVED_PARTICIPANT || info.status == Info::DROPPED_PARTICIPANT) {
+    forget(prefix);
   } else {
-    if (info.status == rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) {
-      ++discovered_;
-      newest_ = std::chrono::steady_clock::now();
-      discovered_changed_.notify_all();
-    }
-    Known& known = participants_[prefix];
-    known.name = foreign_name(info.info.m_participantName.to_string());
-    known.observes = announced_topics(info.info.m_userData);
-    known.proxy = &info.info;
-    known.vouched = true;
+    learn(prefix, info.info.m_participantName.to_string(), info.info.m_userData,
+          info.status == Info::DISCOVERED_PARTICIPANT)
+        .proxy = &info.info;
   }
 }
 
@@ -347,11 +389,9 @@ void KnownEndpoints::on_publisher_discovery(dds::DomainParticipant*,
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
     writers_.erase(key_of(info.info.guid()));
   } else {
-    const auto& user_data = info.info.m_qos.m_userData.getValue();
-    writers_[key_of(info.info.guid())] = {
-        prefix_of(info.info.guid()), info.info.topicName().to_string(),
-        discovered(info.info.m_qos, info.info.typeName().to_string()),
-        announced_incarnation({reinterpret_cast<const char*>(user_data.data()), user_data.size()})};
+    writers_[key_of(info.info.guid())] = {prefix_of(info.info.guid()),
+                                          info.info.topicName().to_string(), discovered(info.info),
+                                          incarnation_in(info.info.m_qos.m_userData.getValue())};
   }
 }
 
@@ -361,11 +401,89 @@ void KnownEndpoints::on_subscriber_discovery(dds::DomainParticipant*,
   if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
     readers_.erase(key_of(info.info.guid()));
   } else {
-    readers_[key_of(info.info.guid())] = {
-        prefix_of(info.info.guid()), info.info.topicName().to_string(),
-        discovered(info.info.m_qos, info.info.typeName().to_string())};
+    readers_[key_of(info.info.guid())] = {prefix_of(info.info.guid()),
+                                          info.info.topicName().to_string(), discovered(info.info)};
   }
 }
+#else
+std::vector<std::string> KnownEndpoints::check_silent(const std::set<Prefix>& participants,
+                                                      dds::DomainParticipant& own) {
+  std::vector<std::string> silent;
+  std::vector<Prefix> dropped;
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock(mutex_);
+    for (const Prefix& prefix : participants) {
+      const auto found = participants_.find(prefix);
+      const auto heard = last_heard_->of(prefix);
+      if (found == participants_.end() || !heard) continue;
+      const Known& known = found->second;
+      const auto silence = now - *heard;
+      if (silence > known.lease) silent.push_back(name_of(prefix));
+      if (checks_lease(known)) continue;
+      if (silence > (known.vouched ? leases_when_vouched : 1) * known.lease) {
+        dropped.push_back(prefix);
+      }
+    }
+  }
+  // It calls the listener.
+  for (const Prefix& prefix : dropped) {
+    rtps::GUID_t guid;
+    std::copy_n(prefix.begin(), prefix.size(), guid.guidPrefix.value);
+    guid.entityId = rtps::c_EntityId_RTPSParticipant;
+    (void)own.ignore_participant(guid);
+  }
+  return silent;
+}
+
+void KnownEndpoints::on_participant_discovery(dds::DomainParticipant*,
+                                              rtps::ParticipantDiscoveryStatus status,
+                                              const rtps::ParticipantBuiltinTopicData& info,
+                                              bool& should_be_ignored) {
+  using Status = rtps::ParticipantDiscoveryStatus;
+  should_be_ignored = false;
+  const std::lock_guard lock(mutex_);
+  const Prefix prefix = prefix_of(info.guid);
+  if (status == Status::DISCOVERED_PARTICIPANT || status == Status::CHANGED_QOS_PARTICIPANT) {
+    const bool is_new = status == Status::DISCOVERED_PARTICIPANT;
+    Known& known =
+        learn(prefix, info.participant_name.to_string(), info.user_data.getValue(), is_new);
+    known.server = is_server(info.guid.guidPrefix);
+    known.lease = std::chrono::nanoseconds(info.lease_duration.to_ns());
+    if (is_new) last_heard_->watch(prefix);
+  } else {
+    forget(prefix);
+  }
+}
+
+void KnownEndpoints::on_data_writer_discovery(dds::DomainParticipant*,
+                                              rtps::WriterDiscoveryStatus status,
+                                              const rtps::PublicationBuiltinTopicData& info,
+                                              bool& should_be_ignored) {
+  should_be_ignored = false;
+  const std::lock_guard lock(mutex_);
+  if (status == rtps::WriterDiscoveryStatus::REMOVED_WRITER) {
+    writers_.erase(key_of(info.guid));
+  } else {
+    writers_[key_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
+                                   discovered(info), incarnation_in(info.user_data.getValue())};
+  }
+}
+
+void KnownEndpoints::on_data_reader_discovery(dds::DomainParticipant*,
+                                              rtps::ReaderDiscoveryStatus status,
+                                              const rtps::SubscriptionBuiltinTopicData& info,
+                                              bool& should_be_ignored) {
+  should_be_ignored = false;
+  const std::lock_guard lock(mutex_);
+  if (status == rtps::ReaderDiscoveryStatus::REMOVED_READER) {
+    readers_.erase(key_of(info.guid));
+  } else {
+    readers_[key_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
+                                   discovered(info)};
+  }
+}
+#endif
 
 std::optional<std::uint64_t> KnownEndpoints::incarnation_of_writer(const Guid& writer) const {
   const std::lock_guard lock(mutex_);

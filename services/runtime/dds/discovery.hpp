@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -18,6 +19,9 @@
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
+
+#include "services/runtime/dds/fast_dds.hpp"
+#include "services/runtime/dds/last_heard.hpp"
 
 namespace quoin::runtime {
 
@@ -81,15 +85,35 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
                                                            const std::set<Prefix>& matched) const;
 
   /// Names of those among `participants` that have been silent for longer than their lease, after
-  /// DDS was made to check their lease.
-  [[nodiscard]] std::vector<std::string> check_silent(const std::set<Prefix>& participants);
+  /// `own` was made to drop them when it would not by itself. With Fast DDS 3 and without a
+  /// discovery server, where it always does, there are none.
+  [[nodiscard]] std::vector<std::string> check_silent(
+      const std::set<Prefix>& participants, eprosima::fastdds::dds::DomainParticipant& own);
 
+  // What Fast DDS calls, of either version.
+#ifdef QUOIN_FAST_DDS_2
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
-                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+                                fast_dds::rtps::ParticipantDiscoveryInfo&& info) override;
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
-                              eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
+                              fast_dds::rtps::WriterDiscoveryInfo&& info) override;
   void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
-                               eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
+                               fast_dds::rtps::ReaderDiscoveryInfo&& info) override;
+#else
+  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                                fast_dds::rtps::ParticipantDiscoveryStatus status,
+                                const fast_dds::rtps::ParticipantBuiltinTopicData& info,
+                                bool& should_be_ignored) override;
+  void on_data_writer_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                                fast_dds::rtps::WriterDiscoveryStatus status,
+                                const fast_dds::rtps::PublicationBuiltinTopicData& info,
+                                bool& should_be_ignored) override;
+  void on_data_reader_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                                fast_dds::rtps::ReaderDiscoveryStatus status,
+                                const fast_dds::rtps::SubscriptionBuiltinTopicData& info,
+                                bool& should_be_ignored) override;
+
+  [[nodiscard]] std::shared_ptr<LastHeard> last_heard() const { return last_heard_; }
+#endif
 
  private:
   struct Known {
@@ -97,9 +121,14 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
     std::set<std::uint32_t> observes;  // topics, as announced_topic
     // A discovery server that lives knows it, and reports its end.
     bool vouched = true;
+#ifdef QUOIN_FAST_DDS_2
     // What DDS holds about it, valid until its removal has been reported.
-    const eprosima::fastrtps::rtps::ParticipantProxyData* proxy = nullptr;
+    const fast_dds::rtps::ParticipantProxyData* proxy = nullptr;
     bool lease_check_added = false;
+#else
+    bool server = false;
+    std::chrono::nanoseconds lease{};
+#endif
   };
   struct Endpoint {
     Prefix participant{};
@@ -110,7 +139,10 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
 
   [[nodiscard]] std::string name_of(const Prefix& participant) const;
   [[nodiscard]] static bool checks_lease(const Known& known);
-  void forget(const eprosima::fastrtps::rtps::ParticipantProxyData& participant);
+  /// Its newest announcement, of anybody; with `mutex_` locked, as the next one is called.
+  Known& learn(const Prefix& participant, const std::string& name,
+               const std::vector<std::uint8_t>& user_data, bool is_new);
+  void forget(const Prefix& participant);
 
   const std::string own_name_;
   mutable std::mutex mutex_;
@@ -120,6 +152,9 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   std::map<Prefix, Known> participants_;
   std::map<Guid, Endpoint> writers_;
   std::map<Guid, Endpoint> readers_;
+#ifndef QUOIN_FAST_DDS_2
+  const std::shared_ptr<LastHeard> last_heard_ = std::make_shared<LastHeard>();
+#endif
 };
 
 }  // namespace quoin::runtime

@@ -12,12 +12,12 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include "services/runtime/dds/entities.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::Duration_t;
-using eprosima::fastrtps::types::ReturnCode_t;
+using Duration_t = fast_dds::Duration;
 
 ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
                        const topics::CdrCodec* codec, const TopicQos& qos)
@@ -58,7 +58,7 @@ void ReaderBase::Impl::refuse(const std::string& reason) {
 }
 
 std::uint64_t ReaderBase::Impl::incarnation_of(std::uint64_t hash,
-                                               const eprosima::fastrtps::rtps::GUID_t& writer) {
+                                               const fast_dds::rtps::GUID_t& writer) {
   if (hash == last_writer) return last_incarnation;
   KnownEndpoints::Guid guid{};
   std::copy_n(writer.guidPrefix.value, 12, guid.begin());
@@ -101,7 +101,7 @@ std::vector<std::string> ReaderBase::incompatible_qos() const {
 bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
   CdrSample sample{message, codec, impl_->check};
   dds::SampleInfo info;
-  while (impl_->reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+  while (fast_dds::succeeded(impl_->reader->take_next_sample(&sample, &info))) {
     if (sample.refusal) {
       impl_->refuse(*std::exchange(sample.refusal, std::nullopt));
       continue;
@@ -149,10 +149,9 @@ void WaitSet::remove(ReaderBase& reader) {
 bool WaitSet::wait(std::chrono::milliseconds timeout) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
-  const bool active =
+  const bool active = fast_dds::succeeded(
       impl_->wait_set.wait(impl_->active, Duration_t(static_cast<std::int32_t>(seconds.count()),
-                                                     static_cast<std::uint32_t>(rest.count()))) ==
-      ReturnCode_t::RETCODE_OK;
+                                                     static_cast<std::uint32_t>(rest.count()))));
   impl_->woken.set_trigger_value(false);
   return active;
 }
@@ -215,9 +214,8 @@ bool WriterBase::wait_for_readers(std::size_t count, std::chrono::milliseconds t
 bool WriterBase::wait_for_acknowledgments(std::chrono::milliseconds timeout) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
   const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout - seconds);
-  return impl_->writer->wait_for_acknowledgments(
-             Duration_t(static_cast<std::int32_t>(seconds.count()),
-                        static_cast<std::uint32_t>(rest.count()))) == ReturnCode_t::RETCODE_OK;
+  return fast_dds::succeeded(impl_->writer->wait_for_acknowledgments(Duration_t(
+      static_cast<std::int32_t>(seconds.count()), static_cast<std::uint32_t>(rest.count()))));
 }
 
 std::vector<std::string> WriterBase::incompatible_qos() const {
@@ -231,7 +229,8 @@ std::vector<std::string> WriterBase::awaited_observers() const {
 }
 
 std::vector<std::string> WriterBase::check_silent_readers() {
-  auto silent = impl_->participant.impl().endpoints->check_silent(impl_->reading_participants());
+  auto silent = impl_->participant.impl().endpoints->check_silent(
+      impl_->reading_participants(), *impl_->participant.impl().participant);
   impl_->found_silent = !silent.empty();
   return silent;
 }
@@ -240,7 +239,7 @@ void WriterBase::assert_liveliness() { impl_->writer->assert_liveliness(); }
 
 bool WriterBase::write_sample(const void* message, const topics::CdrCodec* codec) {
   CdrSample sample{const_cast<void*>(message), codec};  // DDS only reads it
-  const bool written = impl_->writer->write(&sample);
+  const bool written = fast_dds::write(*impl_->writer, &sample);
   // The check of one that spoke again just in time must end, or it would end an idle pair.
   if (written && impl_->found_silent) (void)check_silent_readers();
   return written;

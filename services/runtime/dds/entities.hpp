@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,6 +30,7 @@
 
 #include "services/runtime/dds/discovery.hpp"
 #include "services/runtime/dds/endpoints.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/process_writers.hpp"
 #include "services/runtime/dds/qos.hpp"
@@ -92,21 +94,56 @@ struct CdrSample {
 /// as each sample says how it is written and read, typed and raw endpoints share it.
 class CdrType : public eprosima::fastdds::dds::TopicDataType {
  public:
+  using Payload = fast_dds::rtps::SerializedPayload_t;
+  using Handle = fast_dds::rtps::InstanceHandle_t;
+
   /// `codec` is null for a type of which only the name is known; it has no key then.
   CdrType(const std::string& name, const topics::CdrCodec* codec);
 
-  bool serialize(void* sample, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* sample) override;
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* sample) override;
-  bool getKey(void* sample, eprosima::fastrtps::rtps::InstanceHandle_t* handle,
-              bool force_md5) override;
-  // Samples that own their message; Fast DDS makes some for loans, and one to find out keys.
-  void* createData() override;
-  void deleteData(void* sample) override;
+  // What Fast DDS calls, of either version.
+#ifdef QUOIN_FAST_DDS_2
+  bool serialize(void* sample, Payload* payload) override { return write(sample, *payload); }
+  bool deserialize(Payload* payload, void* sample) override { return read(*payload, sample); }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* sample) override {
+    return [size = size_of(sample)] { return size; };
+  }
+  bool getKey(void* sample, Handle* handle, bool force_md5) override {
+    return key_of_sample(sample, *handle, force_md5);
+  }
+  void* createData() override { return create(); }
+  void deleteData(void* sample) override { destroy(sample); }
+#else
+  using Representation = eprosima::fastdds::dds::DataRepresentationId_t;
+  bool serialize(const void* sample, Payload& payload, Representation) override {
+    return write(sample, payload);
+  }
+  bool deserialize(Payload& payload, void* sample) override { return read(payload, sample); }
+  std::uint32_t calculate_serialized_size(const void* sample, Representation) override {
+    return size_of(sample);
+  }
+  bool compute_key(Payload& payload, Handle& handle, bool force_md5) override {
+    return key_of_bytes(reinterpret_cast<const std::byte*>(payload.data), payload.length, handle,
+                        force_md5);
+  }
+  bool compute_key(const void* sample, Handle& handle, bool force_md5) override {
+    return key_of_sample(sample, handle, force_md5);
+  }
+  void* create_data() override { return create(); }
+  void delete_data(void* sample) override { destroy(sample); }
+#endif
+
+  [[nodiscard]] bool keyed() const { return key_codec_ != nullptr; }
 
  private:
-  bool key_of(const void* message, eprosima::fastrtps::rtps::InstanceHandle_t* handle,
-              bool force_md5) const;
+  static bool write(const void* sample, Payload& payload);
+  static bool read(const Payload& payload, void* sample);
+  static std::uint32_t size_of(const void* sample);
+  bool key_of_sample(const void* sample, Handle& handle, bool force_md5) const;
+  bool key_of_bytes(const std::byte* cdr, std::size_t size, Handle& handle, bool force_md5) const;
+  bool key_of(const void* message, Handle& handle, bool force_md5) const;
+  // Samples that own their message; Fast DDS makes some for loans, and one to find out keys.
+  [[nodiscard]] void* create() const;
+  static void destroy(void* sample);
 
   const topics::CdrCodec* key_codec_;  // null when the type has no key
 };
@@ -127,7 +164,7 @@ struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
   void refuse(const std::string& reason);
   /// That the writer announces; `hash` stands for it.
   [[nodiscard]] std::uint64_t incarnation_of(std::uint64_t hash,
-                                             const eprosima::fastrtps::rtps::GUID_t& writer);
+                                             const fast_dds::rtps::GUID_t& writer);
 
   Participant& participant;
   std::string topic_name;

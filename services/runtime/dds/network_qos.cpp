@@ -4,19 +4,15 @@
 #include <cmath>
 #include <memory>
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-
 #include "services/runtime/dds/entities.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 #include "services/runtime/dds/interfaces.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastdds::rtps::RemoteServerAttributes;
-using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
-using eprosima::fastrtps::Duration_t;
+namespace rtps = fast_dds::rtps;
+using Duration_t = fast_dds::Duration;
 
 namespace {
 
@@ -37,9 +33,9 @@ rtps::Locator_t locator(const std::string& address, std::uint32_t port = 0) {
 // [byte] Of UDP payload that goes through links and tunnels of an MTU of 1400 bytes in one piece.
 constexpr std::uint32_t one_packet = 1372;
 
-std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const ParticipantConfig& config,
-                                                        const std::vector<std::string>& addresses) {
-  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+std::shared_ptr<fast_dds::UdpTransport> udp_transport(const ParticipantConfig& config,
+                                                      const std::vector<std::string>& addresses) {
+  auto udp = std::make_shared<fast_dds::UdpTransport>();
   // What is larger DDS divides, and repeats a part that was lost. IP would have to repeat all, and
   // on links that lose the kernel's memory for incomplete datagrams is soon full, which lets none
   // arrive for half a minute. With security handshakes are too large, and are not divided. Nor
@@ -55,8 +51,9 @@ std::shared_ptr<UDPv4TransportDescriptor> udp_transport(const ParticipantConfig&
   return udp;
 }
 
-/// Participants must know a server by this before they have met it, so it follows from where the
-/// server is.
+/// Participants of Fast DDS 2 must know a server by this before they have met it, so it follows
+/// from where the server is; those of 3 know by it which participant is a server, see
+/// KnownEndpoints.
 rtps::GuidPrefix_t server_prefix(const ServerAddress& server, int domain) {
   const rtps::Locator_t place = locator(server.address, server.port);
   rtps::GuidPrefix_t prefix;
@@ -75,10 +72,14 @@ void add_servers(rtps::BuiltinAttributes& builtin, const ParticipantConfig& conf
   for (std::size_t i = 0; i < config.network.servers.size(); ++i) {
     if (config.server == i) continue;
     const ServerAddress& server = config.network.servers[i];
-    RemoteServerAttributes remote;
+#ifdef QUOIN_FAST_DDS_2
+    eprosima::fastdds::rtps::RemoteServerAttributes remote;
     remote.guidPrefix = server_prefix(server, config.domain);
     remote.metatrafficUnicastLocatorList.push_back(locator(server.address, server.port));
     builtin.discovery_config.m_DiscoveryServers.push_back(remote);
+#else
+    builtin.discovery_config.m_DiscoveryServers.push_back(locator(server.address, server.port));
+#endif
   }
 }
 
@@ -92,7 +93,7 @@ void become_server(dds::WireProtocolConfigQos& wire, const ParticipantConfig& co
   wire.prefix = server_prefix(server, config.domain);
   wire.builtin.metatrafficUnicastLocatorList.clear();
   wire.builtin.metatrafficUnicastLocatorList.push_back(locator(server.address, server.port));
-  wire.builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+  wire.builtin.discovery_config.discoveryProtocol = fast_dds::DiscoveryProtocol::SERVER;
 }
 
 void set_discovery(rtps::BuiltinAttributes& builtin, const ParticipantConfig& config,
@@ -115,7 +116,7 @@ void set_discovery(rtps::BuiltinAttributes& builtin, const ParticipantConfig& co
       }
       break;
     case Discovery::server:
-      builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;
+      builtin.discovery_config.discoveryProtocol = fast_dds::DiscoveryProtocol::CLIENT;
       add_servers(builtin, config);
       break;
   }

@@ -8,31 +8,49 @@
 #include <stdexcept>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/entities.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 #include "services/runtime/dds/interfaces.hpp"
+#include "services/runtime/dds/last_heard.hpp"
 #include "services/runtime/dds/security.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
 // Participants of one process talk through the transport like all others: the short cut inside a
 // process never repeats a sample that a full lossless reader had to reject.
 void disable_intraprocess_delivery() {
+#ifdef QUOIN_FAST_DDS_2
   eprosima::fastrtps::LibrarySettingsAttributes settings;
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+#else
+  eprosima::fastdds::LibrarySettings settings;
+  settings.intraprocess_delivery = eprosima::fastdds::INTRAPROCESS_OFF;
+  // Fails where participants exist, of which the first has set them.
+  (void)dds::DomainParticipantFactory::get_instance()->set_library_settings(settings);
+#endif
 }
 
 dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
-                                          const std::vector<std::string>& addresses) {
+                                          const std::vector<std::string>& addresses,
+                                          const KnownEndpoints& endpoints) {
   dds::DomainParticipantQos qos = network_qos(config, addresses);
+#ifndef QUOIN_FAST_DDS_2
+  qos.properties().properties().emplace_back("fastdds.type_propagation", "disabled");
+  // Where DDS itself does not drop participants that are silent.
+  if (config.network.discovery == Discovery::server) {
+    auto& transport = qos.transport().user_transports.front();
+    transport = listened_to(transport, endpoints.last_heard());
+  }
+#else
+  (void)endpoints;
+#endif
   qos.name(config.name);
   qos.user_data().setValue(observes_announcement(config.observes, 0));
   if (config.security) add_security(*config.security, config.identity, qos);
@@ -102,9 +120,10 @@ Participant::Participant(const ParticipantConfig& config)
   disable_intraprocess_delivery();
   const auto addresses = resolve_interfaces(config.network.interfaces, host_addresses());
   auto* factory = dds::DomainParticipantFactory::get_instance();
-  impl_->participant = factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
-                                                   participant_qos(config, addresses),
-                                                   impl_->endpoints.get(), dds::StatusMask::none());
+  impl_->participant =
+      factory->create_participant(static_cast<dds::DomainId_t>(config.domain),
+                                  participant_qos(config, addresses, *impl_->endpoints),
+                                  impl_->endpoints.get(), dds::StatusMask::none());
   if (impl_->participant == nullptr && config.server) {
     const ServerAddress& server = config.network.servers.at(*config.server);
     throw std::runtime_error("cannot be the discovery server at " + server.address + ":" +
@@ -157,10 +176,10 @@ dds::Topic* Participant::Impl::topic(const std::string& name, const std::string&
   const bool keyed = codec != nullptr && codec->keyed;
   const dds::TypeSupport registered = participant->find_type(type_name);
   if (registered.empty()) {
-    if (type_support(type_name, codec).register_type(participant) != ReturnCode_t::RETCODE_OK) {
+    if (!fast_dds::succeeded(type_support(type_name, codec).register_type(participant))) {
       throw std::runtime_error("cannot register DDS type " + type_name);
     }
-  } else if (registered->m_isGetKeyDefined != keyed) {
+  } else if (dynamic_cast<const CdrType&>(*registered).keyed() != keyed) {
     throw std::runtime_error("DDS type " + type_name +
                              " is in use both with and without its key; " +
                              "topics::keyed_codec has no row for it");

@@ -6,11 +6,12 @@
 #include <string>
 
 #include "services/runtime/dds/entities.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::Duration_t;
+using Duration_t = fast_dds::Duration;
 
 QosPreset qos_preset(std::string_view name) {
   if (name == "sensor") return QosPreset::sensor;
@@ -119,15 +120,14 @@ dds::DataWriterQos writer_qos(const TopicQos& topic) {
   dds::DataWriterQos qos = common_qos(dds::DataWriterQos(dds::DATAWRITER_QOS_DEFAULT), topic);
   // What a service writes keeps its memory from scan to scan. Requests may be of any size.
   qos.endpoint().history_memory_policy =
-      topic.preset == QosPreset::control
-          ? eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE
-          : eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+      topic.preset == QosPreset::control ? fast_dds::rtps::DYNAMIC_RESERVE_MEMORY_MODE
+                                         : fast_dds::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   if (topic.strength) qos.ownership_strength().value = static_cast<std::uint32_t>(*topic.strength);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   // A lost datagram is noticed by the next heartbeat; the default of 3 s would be 30 scans.
   auto& times = qos.reliable_writer_qos().times;
-  times.heartbeatPeriod = Duration_t(0, 50'000'000);
-  times.nackResponseDelay = repeat_delay(topic.preset);
+  fast_dds::heartbeat_period(times) = Duration_t(0, 50'000'000);
+  fast_dds::nack_response_delay(times) = repeat_delay(topic.preset);
   return qos;
 }
 
@@ -135,8 +135,8 @@ dds::DataReaderQos reader_qos(const TopicQos& topic) {
   dds::DataReaderQos qos = common_qos(dds::DataReaderQos(dds::DATAREADER_QOS_DEFAULT), topic);
   // What arrives may come from anybody: were its memory kept, a few oversized messages would leave
   // every place of the history as large as the largest of them.
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = repeat_delay(topic.preset);
+  qos.endpoint().history_memory_policy = fast_dds::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+  fast_dds::heartbeat_response_delay(qos.reliable_reader_qos().times) = repeat_delay(topic.preset);
   return qos;
 }
 

@@ -11,17 +11,17 @@
 #include <sstream>
 
 #include <fastdds/dds/log/Log.hpp>
-#include <fastdds/rtps/common/Token.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "services/keys/key_files.hpp"
 #include "services/runtime/dds/discovery.hpp"
+#include "services/runtime/dds/fast_dds.hpp"
 
 namespace quoin::runtime {
 
 namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace rtps = fast_dds::rtps;
 
 namespace {
 
@@ -128,11 +128,28 @@ class Listener : public KnownEndpoints {
   Listener(const std::string& own_name, std::string authority)
       : KnownEndpoints(own_name), authority_(std::move(authority)) {}
 
+#ifdef QUOIN_FAST_DDS_2
   void on_participant_discovery(dds::DomainParticipant* participant,
                                 rtps::ParticipantDiscoveryInfo&& info) override {
     tell_of(info);
     KnownEndpoints::on_participant_discovery(participant, std::move(info));
   }
+#else
+  void on_participant_discovery(dds::DomainParticipant* participant,
+                                rtps::ParticipantDiscoveryStatus status,
+                                const rtps::ParticipantBuiltinTopicData& info,
+                                bool& should_be_ignored) override {
+    using Status = rtps::ParticipantDiscoveryStatus;
+    Refusals& refusals = Refusals::instance();
+    const std::string prefix = text_of(info.guid.guidPrefix);
+    if (status == Status::DISCOVERED_PARTICIPANT || status == Status::CHANGED_QOS_PARTICIPANT) {
+      refusals.learn(prefix, info.participant_name.to_string());
+    } else {
+      refusals.forget(prefix);
+    }
+    KnownEndpoints::on_participant_discovery(participant, status, info, should_be_ignored);
+  }
+#endif
 
   void onParticipantAuthentication(dds::DomainParticipant*,
                                    rtps::ParticipantAuthenticationInfo&& info) override {
@@ -143,6 +160,7 @@ class Listener : public KnownEndpoints {
   }
 
  private:
+#ifdef QUOIN_FAST_DDS_2
   void tell_of(const rtps::ParticipantDiscoveryInfo& info) const {
     using Info = rtps::ParticipantDiscoveryInfo;
     Refusals& refusals = Refusals::instance();
@@ -162,6 +180,7 @@ class Listener : public KnownEndpoints {
                       ": its identity is of another authority");
     }
   }
+#endif
 
   std::string authority_;
 };

@@ -55,6 +55,8 @@ TEST_F(Doctor, FindsSharedMemoryThatNobodyUsesAndRemovesItAlone) {
   write("fastrtps_0123_el", "");
   write("sem.fastrtps_port7411_mutex", "semaphore");
   write("fast_datasharing_01.0f", "history");
+  write("fastdds_4567_el", "");
+  write("sem.fastdds_port7412_mutex", "semaphore");
   const fs::path open_one = write("fastrtps_open_el", "");
   write("fastrtps_open", "of a living process");
   const fs::path locked = write("fastrtps_port7413_sl", "");
@@ -64,14 +66,16 @@ TEST_F(Doctor, FindsSharedMemoryThatNobodyUsesAndRemovesItAlone) {
   ASSERT_EQ(::flock(lock, LOCK_EX), 0);
 
   const auto stale = stale_files(folder_, "/proc");
-  EXPECT_THAT(names_of(stale), ElementsAre("fast_datasharing_01.0f", "fastrtps_0123",
-                                           "fastrtps_0123_el", "sem.fastrtps_port7411_mutex"));
-  EXPECT_THAT(check_shared_memory(stale), is(Verdict::doubtful, "4 files", "--fix removes them"));
+  EXPECT_THAT(
+      names_of(stale),
+      ElementsAre("fast_datasharing_01.0f", "fastdds_4567_el", "fastrtps_0123", "fastrtps_0123_el",
+                  "sem.fastdds_port7412_mutex", "sem.fastrtps_port7411_mutex"));
+  EXPECT_THAT(check_shared_memory(stale), is(Verdict::doubtful, "6 files", "--fix removes them"));
   // As seen by somebody who cannot look at other processes.
   EXPECT_THAT(names_of(stale_files(folder_, folder_ / "none")),
               testing::Not(testing::Contains("fastrtps_port7413_sl")));
 
-  EXPECT_EQ(remove(stale), 4U);
+  EXPECT_EQ(remove(stale), 6U);
   EXPECT_THAT(stale_files(folder_, "/proc"), IsEmpty());
   EXPECT_THAT(check_shared_memory({}), is(Verdict::good, "", ""));
   EXPECT_TRUE(fs::exists(open_one));
