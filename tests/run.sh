@@ -43,7 +43,7 @@ if ! command -v clang-format-14 >/dev/null && ! apt-cache show clang-format-14 >
   tidy=false
 fi
 
-step() { printf '\n== %s\n' "$*"; }
+step() { printf '\n== %d:%02d  %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
 jobs=$(nproc)
 tests_at_once=$((jobs + 1))  # some of them wait most of the time
 
