@@ -128,7 +128,8 @@ if $sanitizers; then
 fi
 
 # Beside nothing that has deadlines of its own.
-in_background "soak of kinds with several ports" tests/soak/run.sh --minutes 3 --kinds
+in_background "soaks of kinds with several ports, and of processes with several services" \
+  bash -c 'tests/soak/run.sh --minutes 3 --kinds && tests/soak/run.sh --minutes 3 --composed'
 if $fuzzing; then
   step "fuzz targets"
   tests/fuzz/run.sh
@@ -137,7 +138,7 @@ if $tidy; then
   step "clang-tidy"
   nice tests/style.sh tidy
 fi
-finish "soak of kinds with several ports"
+finish "soaks of kinds with several ports, and of processes with several services"
 
 step "temporary files left behind"
 if [[ -n $(ls -A "$TMPDIR") ]]; then

@@ -18,6 +18,7 @@ using std::chrono::seconds;
 
 // A scan that was on its way when its reader was matched may be missed; the next one is not.
 constexpr seconds first_scan_timeout{2};
+constexpr int no_process = 0;  // is no key
 
 /// Whether a new process can wait, held, until the one before leaves its work to it.
 bool can_be_held(const ServiceConfig& service) {
@@ -124,7 +125,9 @@ void Changeover::start_trials() {
   for (const Change& change : plan_.changes) {
     if (change.action != ChangeAction::replace && change.action != ChangeAction::stop) continue;
     const auto key = world_.processes.key_of(change.service);
-    if (key && world_.processes.running(*key)) predecessors_[change.service] = *key;
+    if (!key) continue;
+    const ProcessPlan& plan = world_.processes.plan(*key);
+    predecessors_[change.service] = {*key, plan.level, plan.services};
   }
   std::map<std::string, int> keys;  // of the new processes, by name
   for (const Change& change : plan_.changes) {
@@ -152,10 +155,10 @@ int Changeover::start(const ProcessPlan& plan) {
   for (const std::string& service : plan.services) {
     const auto old = predecessors_.find(service);
     if (old == predecessors_.end()) continue;
-    const int key = old->second;
+    const int key = old->second.key;
     stopped_beforehand_.push_back(world_.processes.plan(key));
     stop({key});
-    std::erase_if(predecessors_, [&](const auto& entry) { return entry.second == key; });
+    std::erase_if(predecessors_, [&](const auto& entry) { return entry.second.key == key; });
   }
   return world_.processes.add(plan);
 }
@@ -204,7 +207,9 @@ void Changeover::wait_until_ready() {
     if (world_.withdrawn()) throw std::runtime_error(withdrawn);
   }
   // No request is lost from the first answer on.
-  for (const auto& [name, key] : predecessors_) {
+  for (const auto& [name, predecessor] : predecessors_) {
+    const int key = predecessor.key;
+    if (!world_.processes.running(key)) continue;  // nobody to wait for
     if (!world_.dialogue.ask(name, incarnation_of(name, key),
                              msg::ControlAction::CONTROL_DESCRIBE)) {
       throw std::runtime_error("the running process of service '" + name +
@@ -227,8 +232,10 @@ bool Changeover::ready(Trial& trial) {
       .has_value();
 }
 
-// In a process of ours, should there be others of that name; 0 when nothing was heard of it.
+// In a process of ours, should there be others of that name; 0 when nothing was heard of it, or it
+// is gone.
 std::uint64_t Changeover::incarnation_of(const std::string& service, int key) const {
+  if (!world_.processes.running(key)) return 0;
   const auto process = world_.record.process(service, world_.processes.process_id(key));
   return process ? process->incarnation : 0;
 }
@@ -277,7 +284,9 @@ void Changeover::roll_back() {
 void Changeover::hold_all() {
   for (Trial& trial : trials_) {
     const std::string name = label(*trial.config);
-    const bool takes_over = trial.change->same_scans && predecessors_.contains(name) &&
+    const auto predecessor = predecessors_.find(name);
+    const bool takes_over = trial.change->same_scans && predecessor != predecessors_.end() &&
+                            world_.processes.running(predecessor->second.key) &&
                             trial.change->action == ChangeAction::replace;
     if (!takes_over || trial.held || trial.config->is_source()) continue;
     trial.held = hold(trial, first_scan_timeout);
@@ -297,8 +306,11 @@ void Changeover::begin(const Trial& trial) {
 }
 
 void Changeover::take_over(const Trial& trial) {
-  const auto predecessor = predecessors_.find(label(*trial.config));
-  if (predecessor == predecessors_.end()) {
+  const std::string name = label(*trial.config);
+  const auto predecessor = predecessors_.find(name);
+  const int key = predecessor == predecessors_.end() ? no_process : predecessor->second.key;
+  if (!world_.processes.running(key)) {
+    world_.processes.retire(key, false);  // nor is it started again
     begin(trial);
     return;
   }
@@ -306,14 +318,16 @@ void Changeover::take_over(const Trial& trial) {
   const bool source = trial.config->is_source();
   const msg::ControlReply held =
       trial.held ? *trial.held : hold(trial, source ? seconds(0) : first_scan_timeout);
-  const std::string name = label(*trial.config);
-  const int key = predecessor->second;
   // Each of its services may take its time.
-  world_.processes.retire(key, false, world_.processes.plan(key).services.size());
-  msg::ControlRequest leave;
-  leave.action(msg::ControlAction::CONTROL_HAND_OVER);
-  if (same_scans) leave.positions(held.positions());
-  const auto handed_over = world_.dialogue.ask(name, incarnation_of(name, key), std::move(leave));
+  world_.processes.retire(key, false, predecessor->second.services.size());
+  std::optional<msg::ControlReply> handed_over;
+  // Without it the new process would hear what is meant for the old one.
+  if (const std::uint64_t incarnation = incarnation_of(name, key); incarnation != 0) {
+    msg::ControlRequest leave;
+    leave.action(msg::ControlAction::CONTROL_HAND_OVER);
+    if (same_scans) leave.positions(held.positions());
+    handed_over = world_.dialogue.ask(name, incarnation, std::move(leave));
+  }
   msg::ControlRequest take;  // everything that is held
   if (handed_over && handed_over->accepted()) {
     if (same_scans) take.positions(handed_over->positions());
@@ -354,8 +368,8 @@ void Changeover::stop_removed() {
     if (change.action != ChangeAction::stop || done_.contains(change.service)) continue;
     const auto key = predecessors_.find(change.service);
     if (key == predecessors_.end()) continue;
-    const int level = std::max(Graph(running_).level(running_.service(change.service)),
-                               world_.processes.plan(key->second).level);
+    const int level =
+        std::max(Graph(running_).level(running_.service(change.service)), key->second.level);
     levels[level].push_back(change.service);
   }
   for (const auto& [level, services] : levels) {
@@ -367,14 +381,14 @@ void Changeover::stop_removed() {
 void Changeover::stop_service(const std::string& service) {
   const auto predecessor = predecessors_.find(service);
   if (predecessor == predecessors_.end()) return;
-  const int key = predecessor->second;
-  if (!world_.processes.running(key)) return;
-  const std::vector<std::string>& services = world_.processes.plan(key).services;
-  const bool whole =
-      std::ranges::all_of(services, [&](const std::string& other) { return plan_.stops(other); });
+  const int key = predecessor->second.key;
+  const bool whole = std::ranges::all_of(
+      predecessor->second.services, [&](const std::string& other) { return plan_.stops(other); });
   if (whole) {
+    // Dead or alive: a dead one is not started again.
     stop({key});
-  } else {
+    std::erase_if(predecessors_, [&](const auto& entry) { return entry.second.key == key; });
+  } else if (world_.processes.running(key)) {
     (void)world_.dialogue.ask(service, incarnation_of(service, key),
                               msg::ControlAction::CONTROL_STOP);
   }

@@ -95,8 +95,14 @@ class Changeover {
   const std::vector<ProcessPlan>& plans_;
   std::chrono::milliseconds timeout_;
   std::vector<Trial> trials_;
-  std::map<std::string, int> predecessors_;      // keys of processes that are left, by service
-  std::vector<ProcessPlan> stopped_beforehand_;  // to start again when it fails
+  // Of a process that is left, as it was at the beginning: it may die and be forgotten meanwhile.
+  struct Predecessor {
+    int key;
+    int level;
+    std::vector<std::string> services;
+  };
+  std::map<std::string, Predecessor> predecessors_;  // by service
+  std::vector<ProcessPlan> stopped_beforehand_;      // to start again when it fails
   std::vector<std::string> swapped_;
   bool committed_ = false;
   std::set<std::string> done_;  // changes

@@ -60,13 +60,16 @@ class SupervisedProcesses {
   /// Another way to start the service's process from the next time on.
   virtual void replan(ProcessPlan plan) = 0;
   /// The process is about to end, with or without SIGTERM from here; it is not started again, and
-  /// killed when it takes long: five seconds for each of `services`.
+  /// killed when it takes long: five seconds for each of `services`. Nothing when it is gone and
+  /// forgotten, as it may be as soon as it has died and others do the work of all its services.
   virtual void retire(int key, bool terminate, std::size_t services = 1) = 0;
-  /// SIGKILL.
+  /// SIGKILL. Nothing when the process is gone.
   virtual void kill(int key) = 0;
 
   /// False, too, when the process is gone and forgotten.
   [[nodiscard]] virtual bool running(int key) const = 0;
+  /// These two throw std::out_of_range when it is forgotten: only of processes that run, and of
+  /// those on trial.
   [[nodiscard]] virtual int process_id(int key) const = 0;
   [[nodiscard]] virtual const ProcessPlan& plan(int key) const = 0;
   /// How a process on trial ended; nothing while it runs.

@@ -36,10 +36,13 @@ Supervisor::Child& Supervisor::insert(ProcessPlan plan) {
   return child;
 }
 
+Supervisor::Child* Supervisor::known(int key) {
+  const auto found = std::ranges::find(children_, key, &Child::key);
+  return found == children_.end() ? nullptr : &*found;
+}
+
 Supervisor::Child& Supervisor::child(int key) {
-  for (Child& candidate : children_) {
-    if (candidate.key == key) return candidate;
-  }
+  if (Child* found = known(key)) return *found;
   throw std::out_of_range("no process with key " + std::to_string(key));
 }
 
@@ -88,7 +91,9 @@ void Supervisor::replan(ProcessPlan plan) {
 }
 
 void Supervisor::retire(int key, bool terminate, std::size_t services) {
-  Child& retired = child(key);
+  Child* const found = known(key);
+  if (found == nullptr) return;
+  Child& retired = *found;
   retired.never_adopted = retired.never_adopted || retired.standing == Standing::trial;
   retired.standing = Standing::retired;
   retired.asked_to_stop = true;
@@ -101,8 +106,8 @@ void Supervisor::retire(int key, bool terminate, std::size_t services) {
 }
 
 void Supervisor::kill(int key) {
-  const Child& killed = child(key);
-  if (killed.process) killed.process->send_signal(SIGKILL);
+  const Child* killed = known(key);
+  if (killed != nullptr && killed->process) killed->process->send_signal(SIGKILL);
 }
 
 bool Supervisor::running(int key) const {

@@ -90,6 +90,7 @@ class Supervisor : public SupervisedProcesses {
   };
 
   Child& insert(ProcessPlan plan);
+  [[nodiscard]] Child* known(int key);
   [[nodiscard]] Child& child(int key);
   [[nodiscard]] const Child& child(int key) const;
   [[nodiscard]] const Child* find(const std::string& name) const;

@@ -134,6 +134,7 @@ class ChangeoverTest : public testing::Test {
         break;
       case ControlAction::CONTROL_TAKE_OVER:
         log_.push_back("take over " + name);
+        if (forgotten_after_.contains(name)) processes_.forget(forgotten_after_.at(name));
         break;
       default:
         break;
@@ -190,9 +191,10 @@ class ChangeoverTest : public testing::Test {
   std::unique_ptr<DeploymentRecord> record_;
   std::unique_ptr<Dialogue> dialogue_;
   std::unique_ptr<Changeover> changeover_;
-  std::vector<std::string> log_;         // all but the next
-  std::vector<std::string> everything_;  // with other plans for processes that go on
-  std::map<int, std::size_t> ended_;     // services, by key
+  std::vector<std::string> log_;                // all but the next
+  std::vector<std::string> everything_;         // with other plans for processes that go on
+  std::map<int, std::size_t> ended_;            // services, by key
+  std::map<std::string, int> forgotten_after_;  // keys, by the service that takes over last
   std::map<std::string, std::string> lines_;
   std::map<std::string, std::string> details_;
   std::set<std::string> dying_;
@@ -383,7 +385,20 @@ TEST_F(ChangeoverTest, AServiceWhoseProcessIsDeadIsBegunAnew) {
   processes_.table.at(3).running = false;
   changeover.prepare();
   changeover.finish();
-  EXPECT_THAT(log_, ElementsAre("start map", "hold map", "adopt map", "take over map"));
+  EXPECT_THAT(log_,
+              ElementsAre("start map", "retire map", "hold map", "adopt map", "take over map"))
+      << "retired, or it would be started again beside its successor";
+}
+
+TEST_F(ChangeoverTest, AProcessThatDiesBetweenItsServicesHoldsNothingUp) {
+  Changeover& changeover = begin(in_process(chain(), {"fit", "map"}), chain());
+  changeover.prepare();
+  log_.clear();
+  forgotten_after_["fit"] = processes_.key_of("fit").value();
+  changeover.finish();
+  EXPECT_THAT(log_, ElementsAre("hold fit", "hold map", "retire both", "hand over fit", "adopt fit",
+                                "take over fit", "hold map", "adopt map", "take over map"));
+  EXPECT_THAT(running_processes(), ElementsAre("front", "fit", "map"));
 }
 
 TEST_F(ChangeoverTest, ARefusedSwapUndoesThoseBefore) {

@@ -107,17 +107,23 @@ class FakeProcesses : public SupervisedProcesses {
       if (process.plan.name == plan.name && !process.trial && !process.retired) process.plan = plan;
     }
   }
+  /// It has died, and its services are those of others.
+  void forget(int key) { table.erase(key); }
   void retire(int key, bool terminate, std::size_t) override {
+    if (!table.contains(key)) return;
     Process& process = table.at(key);
     log((terminate ? "stop " : "retire ") + process.plan.name);
     process.retired = true;
     if (terminate) process.running = false;
   }
   void kill(int key) override {
+    if (!table.contains(key)) return;
     log("kill " + table.at(key).plan.name);
     table.at(key).running = false;
   }
-  [[nodiscard]] bool running(int key) const override { return table.at(key).running; }
+  [[nodiscard]] bool running(int key) const override {
+    return table.contains(key) && table.at(key).running;
+  }
   [[nodiscard]] int process_id(int key) const override { return id(key); }
   [[nodiscard]] const ProcessPlan& plan(int key) const override { return table.at(key).plan; }
   [[nodiscard]] std::optional<ProcessEnd> end_of_trial(int key) const override {

@@ -225,12 +225,35 @@ TEST_F(Supervision, AProcessOnTrialTakesThePlaceOfAnother) {
   supervisor_->retire(old, true);
   ASSERT_TRUE(poll_until([&] { return !supervisor_->running(old); }));
   EXPECT_EQ(supervisor_->key_of("walls"), young);
+  supervisor_->poll(0ms);
+  supervisor_->retire(old, true);  // is forgotten
+  supervisor_->kill(old);
   EXPECT_THAT(events_, IsEmpty());
   ASSERT_EQ(::kill(supervisor_->process_id(young), SIGKILL), 0);
   ASSERT_TRUE(poll_until([&] { return supervisor_->figures("walls").restarts == 1; }));
   supervisor_->request_stop();
   ASSERT_TRUE(poll_to_the_end());
   EXPECT_EQ(supervisor_->exit_code(), 0);
+}
+
+TEST_F(Supervision, ADeadProcessThatIsRetiredIsNotStartedAgain) {
+  start({plan("front", stage), plan("walls", stage, 1)});
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  const int old = supervisor_->key_of("walls").value();
+  supervisor_->kill(old);
+  ASSERT_TRUE(
+      poll_until([&] { return supervisor_->figures("walls").phase == ProcessPhase::pausing; }));
+  const int young = supervisor_->add(plan("walls", stage, 1));
+  supervisor_->adopt(young, plan("walls", stage, 1));
+  supervisor_->retire(old, false);
+  lines_.clear();
+  supervisor_->kill(young);  // it comes back after the same pause, or a longer one
+  ASSERT_TRUE(wait_for_line("walls: ready"));
+  EXPECT_EQ(std::ranges::count(lines_, "walls: ready"), 1);
+  EXPECT_EQ(supervisor_->key_of("walls"), young);
+  EXPECT_FALSE(supervisor_->running(old));
+  supervisor_->request_stop();
+  ASSERT_TRUE(poll_to_the_end());
 }
 
 TEST_F(Supervision, AFailedTrialChangesNothing) {
