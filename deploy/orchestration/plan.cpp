@@ -288,6 +288,7 @@ Plan plan_changes(const Deployment& running, const Deployment& wanted, const std
   }
   if (running.network != wanted.network) obstacle("the network cannot be changed");
   if (running.security != wanted.security) obstacle("security cannot be changed");
+  if (running.ros != wanted.ros) obstacle("the distribution of ROS 2 cannot be changed");
   for (const ServiceConfig& service : wanted.services) {
     if (service.host != host || !service.has_process()) continue;
     plan.changes.push_back(change_of(running, wanted, service));

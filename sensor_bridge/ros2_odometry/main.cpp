@@ -21,9 +21,10 @@ void report_faults(const ros2::OdometryImport& odometry, runtime::Source& source
 }
 
 void publish_odometry(const sensor_bridge::Ros2OdometryParameters& parameters,
-                      const Deployment& deployment, runtime::Source& source) {
+                      const Deployment& deployment, const std::string& owner,
+                      runtime::Source& source) {
   ros2::Subscription<ros2::Odometry> topic(
-      source.participant(), deployment, parameters.topic,
+      source.participant(), deployment, owner, parameters.topic,
       parameters.reliability == sensor_bridge::Reliability::reliable);
   ros2::OdometryImport odometry;
   msg::Odometry out;
@@ -44,8 +45,8 @@ std::function<void(runtime::Source&)> open(const Deployment& deployment,
                                            const ServiceConfig& config) {
   const auto parameters = make_parameters<sensor_bridge::Ros2OdometryParameters>(config.parameters);
   ros2::check_topic(deployment, "topic", parameters.topic);
-  return [parameters, &deployment](runtime::Source& source) {
-    publish_odometry(parameters, deployment, source);
+  return [parameters, &deployment, owner = label(config)](runtime::Source& source) {
+    publish_odometry(parameters, deployment, owner, source);
   };
 }
 

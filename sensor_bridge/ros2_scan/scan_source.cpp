@@ -39,7 +39,7 @@ class FaultReport {
 };
 
 void publish_scans(const Ros2ScanParameters& parameters, const Deployment& deployment,
-                   runtime::Source& source) {
+                   const std::string& owner, runtime::Source& source) {
   msg::Scan scan = declared_scan(parameters);
   ros2::ScanImport scans({.stamped = parameters.stamp == StampOf::last_ray
                                          ? ros2::StampedRay::last
@@ -48,7 +48,8 @@ void publish_scans(const Ros2ScanParameters& parameters, const Deployment& deplo
                           .range_min = parameters.range_min,
                           .range_max = parameters.range_max});
   FaultReport faults;
-  ros2::Subscription<ros2::LaserScan> topic(source.participant(), deployment, parameters.topic,
+  ros2::Subscription<ros2::LaserScan> topic(source.participant(), deployment, owner,
+                                            parameters.topic,
                                             parameters.reliability == Reliability::reliable);
   while (topic.wait(source)) {
     while (const ros2::LaserScan* message = topic.take()) {
@@ -68,8 +69,8 @@ std::function<void(runtime::Source&)> open_ros2_scan(const Deployment& deploymen
   const auto parameters = make_parameters<Ros2ScanParameters>(config.parameters);
   check_range_limits(parameters);
   ros2::check_topic(deployment, "topic", parameters.topic);
-  return [parameters, &deployment](runtime::Source& source) {
-    publish_scans(parameters, deployment, source);
+  return [parameters, &deployment, owner = label(config)](runtime::Source& source) {
+    publish_scans(parameters, deployment, owner, source);
   };
 }
 

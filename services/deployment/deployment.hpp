@@ -79,6 +79,9 @@ struct SecurityConfig {
   friend bool operator==(const SecurityConfig&, const SecurityConfig&) = default;
 };
 
+/// A distribution of ROS 2, as far as its graph of nodes is another one on the wire.
+enum class RosDistro { humble, iron, jazzy, rolling };
+
 /// An input port as the file wires it.
 struct InputConfig {
   std::string port;     ///< of the kind; "" of an observer
@@ -142,6 +145,8 @@ struct Deployment {
   int domain = 0;          ///< DDS domain, 0..232
   NetworkConfig network;
   std::optional<SecurityConfig> security;
+  /// Whose graph of nodes shows the services; nothing: none, and nothing is announced.
+  std::optional<RosDistro> ros;
   std::vector<ServiceConfig> services;  ///< inputs before those who read them, strong before weak
 
   /// By label, or by name: then the strongest of its instances. Throws std::out_of_range when there

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/deployment/network_entries.hpp"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <charconv>
 
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t longest_interface = 15;  // of the kernel
 constexpr std::size_t most_addresses = 64;
 constexpr int default_server_port = 11811;
+const std::vector<std::string> distro_names{"humble", "iron", "jazzy", "rolling"};  // of RosDistro
 
 bool is_address(const std::string& text) {
   in_addr address{};
@@ -196,6 +198,35 @@ std::optional<SecurityConfig> read_security(const Entry& entry, const std::files
   }
   if (security) security->encrypt = encrypt;
   return security;
+}
+
+std::optional<RosDistro> read_ros(const Entry& entry, Problems& problems) {
+  if (!entry.value.IsMap()) {
+    problems.add(entry.value_at, "'ros' must be a map with the key 'distro', such as {distro: " +
+                                     distro_names.back() + "}, not " + what_is(entry.value));
+    return std::nullopt;
+  }
+  std::optional<RosDistro> distro;
+  bool named = false;
+  for (const Entry& element : entries_of(entry.value, "ros", problems)) {
+    if (element.key != "distro") {
+      problems.add(element.key_at, "unknown key '" + element.key + "' of ros" +
+                                       suggestion(element.key, {"distro"}));
+      continue;
+    }
+    named = true;
+    const auto name = read_choice(element, "distribution of ROS 2", distro_names, problems);
+    if (name) {
+      distro =
+          static_cast<RosDistro>(std::ranges::find(distro_names, *name) - distro_names.begin());
+    }
+  }
+  if (!named) {
+    problems.add(entry.key_at,
+                 "ros has no distribution; add distro: NAME (what ROS_DISTRO says where ROS 2 "
+                 "runs)");
+  }
+  return distro;
 }
 
 }  // namespace quoin

@@ -19,4 +19,7 @@ namespace quoin {
                                                           const std::filesystem::path& base,
                                                           Problems& problems);
 
+/// Reads the map behind `ros:`.
+[[nodiscard]] std::optional<RosDistro> read_ros(const Entry& entry, Problems& problems);
+
 }  // namespace quoin

@@ -68,7 +68,7 @@ class Reader {
       return;
     }
     deployment_.name_space = "quoin";
-    std::optional<Entry> version, services, processes, security;
+    std::optional<Entry> version, services, processes, security, ros;
     // The preset for all must be known before the services are read, wherever it is written.
     for (const Entry& entry : entries_of(root, "the deployment", problems_)) {
       if (entry.key == "version") {
@@ -84,6 +84,9 @@ class Reader {
       } else if (entry.key == "security") {
         security = entry;
         deployment_.security = read_security(entry, deployment_.file.parent_path(), problems_);
+      } else if (entry.key == "ros") {
+        ros = entry;
+        deployment_.ros = read_ros(entry, problems_);
       } else if (entry.key == "services") {
         services = entry;
       } else if (entry.key == "processes") {
@@ -92,7 +95,7 @@ class Reader {
         problems_.add(entry.key_at,
                       "unknown key '" + entry.key + "' of the deployment" +
                           suggestion(entry.key, {"version", "namespace", "domain", "qos", "network",
-                                                 "security", "services", "processes"}));
+                                                 "security", "ros", "services", "processes"}));
       }
     }
     if (security && deployment_.network.discovery != Discovery::peers) {
@@ -101,6 +104,11 @@ class Reader {
       problems_.add(security->key_at,
                     "security can be had with discovery: peers only; list the addresses of the "
                     "hosts in the network's peers");
+    }
+    if (security && ros) {
+      problems_.add(ros->key_at,
+                    "ROS 2 has no keys of this deployment's security, so that it sees no node; "
+                    "remove ros or security");
     }
     if (!version) {
       problems_.add(at, "missing key 'version'; write version: 1");

@@ -43,11 +43,11 @@ class SubscriptionWatch {
 template <class T>
 class Subscription {
  public:
-  /// `deployment` outlives it. `topic` as ROS 2 names it. Throws std::runtime_error when DDS
-  /// refuses to create the entities.
+  /// `deployment` outlives it. `owner`: label of the service. `topic` as ROS 2 names it. Throws
+  /// std::runtime_error when DDS refuses to create the entities.
   Subscription(runtime::Participant& participant, const Deployment& deployment,
-               const std::string& topic, bool reliable)
-      : reader_(participant, dds_topic(topic), reader_qos(topic_type<T>(), reliable)),
+               const std::string& owner, const std::string& topic, bool reliable)
+      : reader_(participant, dds_topic(topic), reader_qos(topic_type<T>(), reliable, owner)),
         watch_(deployment, topic) {
     wait_set_.add(reader_);
   }

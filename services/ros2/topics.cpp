@@ -139,16 +139,18 @@ void check_topic(const Deployment& deployment, const std::string& parameter,
   }
 }
 
-runtime::TopicQos writer_qos(const TopicType& type) {
+runtime::TopicQos writer_qos(const TopicType& type, const std::string& owner) {
   runtime::TopicQos qos = type.qos;
   qos.depth = type.depth;
   qos.user_data = "typehash=RIHS01_" + std::string(type.hash) + ";";
+  qos.owner = owner;
   return qos;
 }
 
-runtime::TopicQos reader_qos(const TopicType& type, bool reliable) {
+runtime::TopicQos reader_qos(const TopicType& type, bool reliable, const std::string& owner) {
   runtime::TopicQos qos = reliable ? QosPreset::feature : QosPreset::best_effort;
   qos.user_data = writer_qos(type).user_data;
+  qos.owner = owner;
   return qos;
 }
 

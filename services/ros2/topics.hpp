@@ -50,11 +50,13 @@ template <class T>
 void check_topic(const Deployment& deployment, const std::string& parameter,
                  const std::string& topic);
 
-/// Of a writer of that type, with the hash that others look for.
-[[nodiscard]] runtime::TopicQos writer_qos(const TopicType& type);
+/// Of a writer of that type, with the hash that others look for. `owner`: label of the service that
+/// is its node, see runtime::TopicQos.
+[[nodiscard]] runtime::TopicQos writer_qos(const TopicType& type, const std::string& owner = "");
 
 /// Of a reader. Best effort gets messages of every writer, reliable those that are sent reliably,
 /// without a loss.
-[[nodiscard]] runtime::TopicQos reader_qos(const TopicType& type, bool reliable);
+[[nodiscard]] runtime::TopicQos reader_qos(const TopicType& type, bool reliable,
+                                           const std::string& owner = "");
 
 }  // namespace quoin::ros2

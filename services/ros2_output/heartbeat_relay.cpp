@@ -23,10 +23,10 @@ constexpr std::chrono::seconds period{1};
 }  // namespace
 
 struct HeartbeatRelay::Impl {
-  Impl(runtime::Participant& participant, std::string name_space_of_all)
+  Impl(runtime::Participant& participant, const std::string& owner, std::string name_space_of_all)
       : name_space(std::move(name_space_of_all)),
         heartbeats(participant, status_topic(name_space), runtime::QosPreset::state),
-        diagnostics(participant, "/diagnostics", false),
+        diagnostics(participant, owner, "/diagnostics", false),
         thread([this](const std::stop_token& stop) { run(stop); }) {}
 
   void run(const std::stop_token& stop) {
@@ -58,8 +58,9 @@ struct HeartbeatRelay::Impl {
   std::jthread thread;  // ends before what it uses
 };
 
-HeartbeatRelay::HeartbeatRelay(runtime::Participant& participant, const std::string& name_space)
-    : impl_(std::make_unique<Impl>(participant, name_space)) {}
+HeartbeatRelay::HeartbeatRelay(runtime::Participant& participant, const std::string& owner,
+                               const std::string& name_space)
+    : impl_(std::make_unique<Impl>(participant, owner, name_space)) {}
 
 HeartbeatRelay::~HeartbeatRelay() = default;
 

@@ -13,7 +13,9 @@ namespace quoin {
 /// second on /diagnostics, from a thread of its own: also when no scan comes.
 class HeartbeatRelay {
  public:
-  HeartbeatRelay(runtime::Participant& participant, const std::string& name_space);
+  /// `owner`: label of the service that it belongs to.
+  HeartbeatRelay(runtime::Participant& participant, const std::string& owner,
+                 const std::string& name_space);
   ~HeartbeatRelay();
   HeartbeatRelay(const HeartbeatRelay&) = delete;
   HeartbeatRelay& operator=(const HeartbeatRelay&) = delete;

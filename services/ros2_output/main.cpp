@@ -28,9 +28,10 @@ runtime::BindMethods open(const Deployment& deployment, const ServiceConfig& con
   return [&deployment, &config, parameters](runtime::Participant& participant) {
     const auto publisher =
         std::make_shared<Ros2Publisher>(participant, deployment, config, parameters);
-    const auto relay = parameters.diagnostics
-                           ? std::make_shared<HeartbeatRelay>(participant, deployment.name_space)
-                           : nullptr;
+    const auto relay =
+        parameters.diagnostics
+            ? std::make_shared<HeartbeatRelay>(participant, label(config), deployment.name_space)
+            : nullptr;
     return [publisher, relay](const std::string&, const ParameterSettings&) -> runtime::Method {
       return {.handle = [publisher, relay, next = std::chrono::steady_clock::time_point()](
                             runtime::Work& work) mutable {

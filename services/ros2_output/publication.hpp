@@ -26,11 +26,13 @@ class Publication {
 template <class T>
 class TypedPublication final : public Publication {
  public:
-  /// `latched`: late readers get the newest message, whatever the type's default is.
-  TypedPublication(runtime::Participant& participant, const std::string& topic, bool latched)
+  /// `owner`: label of the service. `latched`: late readers get the newest message, whatever the
+  /// type's default is.
+  TypedPublication(runtime::Participant& participant, const std::string& owner,
+                   const std::string& topic, bool latched)
       : type_(ros2::topic_type<T>()),
         latched_(latched || type_.qos == runtime::QosPreset::state),
-        writer_(participant, ros2::dds_topic(topic), qos()) {}
+        writer_(participant, ros2::dds_topic(topic), qos(owner)) {}
 
   [[nodiscard]] std::size_t readers() const override { return writer_.matched(); }
   /// Whether a message that is written now can be of use.
@@ -42,8 +44,8 @@ class TypedPublication final : public Publication {
   }
 
  private:
-  [[nodiscard]] runtime::TopicQos qos() const {
-    runtime::TopicQos qos = ros2::writer_qos(type_);
+  [[nodiscard]] runtime::TopicQos qos(const std::string& owner) const {
+    runtime::TopicQos qos = ros2::writer_qos(type_, owner);
     if (latched_) {
       qos.preset = runtime::QosPreset::state;
       qos.depth = 1;
@@ -60,10 +62,10 @@ class TypedPublication final : public Publication {
 /// Of our own messages under the names of quoin_msgs: the bytes are the same.
 class RawPublication final : public Publication {
  public:
-  RawPublication(runtime::Participant& participant, const std::string& topic,
-                 const ros2::TopicType& type)
+  RawPublication(runtime::Participant& participant, const std::string& owner,
+                 const std::string& topic, const ros2::TopicType& type)
       : writer_(participant, ros2::dds_topic(topic), ros2::dds_type_name(type.name),
-                ros2::writer_qos(type)) {}
+                ros2::writer_qos(type, owner)) {}
 
   [[nodiscard]] std::size_t readers() const override { return writer_.matched(); }
   void write(const topics::RawMessage& raw) {

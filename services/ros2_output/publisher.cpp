@@ -32,8 +32,9 @@ using Handler = std::function<bool(const RawMessage&)>;
 
 struct Ros2Publisher::Impl {
   Impl(runtime::Participant& participant_of_all, const Ros2OutputParameters& parameters_of_all,
-       const std::string& name_space)
+       const std::string& name_space, std::string own_label)
       : participant(participant_of_all),
+        owner(std::move(own_label)),
         parameters(parameters_of_all),
         prefix("/" + (parameters.prefix.empty() ? name_space : parameters.prefix)) {}
 
@@ -52,11 +53,12 @@ struct Ros2Publisher::Impl {
   template <class T>
   TypedPublication<T>& publication(const std::string& topic, bool latched = false) {
     auto& made = publications[topic];
-    if (!made) made = std::make_unique<TypedPublication<T>>(participant, topic, latched);
+    if (!made) made = std::make_unique<TypedPublication<T>>(participant, owner, topic, latched);
     return static_cast<TypedPublication<T>&>(*made);
   }
 
   runtime::Participant& participant;
+  const std::string owner;  // of the writers
   const Ros2OutputParameters parameters;
   const std::string prefix;
   std::map<std::string, std::unique_ptr<Publication>> publications;  // by ROS 2's name
@@ -187,7 +189,7 @@ void Ros2Publisher::Impl::add_numbers(const std::string& topic, const std::strin
                                       const std::string& type) {
   if (!parameters.numbers) return;
   const std::string name = prefix + "/" + service + "/numbers/" + type;
-  auto made = std::make_unique<RawPublication>(participant, name, ros2::own_type(type));
+  auto made = std::make_unique<RawPublication>(participant, owner, name, ros2::own_type(type));
   handlers[topic].push_back([&own = *made](const RawMessage& raw) {
     own.write(raw);
     return true;
@@ -216,7 +218,8 @@ void Ros2Publisher::Impl::add(const Connection& input, std::size_t number) {
 
 Ros2Publisher::Ros2Publisher(runtime::Participant& participant, const Deployment& deployment,
                              const ServiceConfig& service, const Ros2OutputParameters& parameters)
-    : impl_(std::make_unique<Impl>(participant, parameters, deployment.name_space)) {
+    : impl_(
+          std::make_unique<Impl>(participant, parameters, deployment.name_space, label(service))) {
   std::size_t number = 0;
   for (const Connection& input : Graph(deployment).inputs_of(service)) impl_->add(input, number++);
 }

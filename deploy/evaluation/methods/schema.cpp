@@ -157,6 +157,8 @@ Json deployment_schema(const KindList& kinds) {
                           "without it everything stays on 127.0.0.1")},
        {"security", object({{"keys", text("folder of the keys")},
                             {"encrypt", {{"type", {"boolean", "string"}}}}})},
+       {"ros", object({{"distro", choice({"humble", "iron", "jazzy", "rolling"})}},
+                      "the services are nodes to ros2 node list of that distribution")},
        {"processes",
         {{"type", "object"},
          {"additionalProperties", words},

@@ -28,7 +28,7 @@ namespace {
 // Names come from anybody in the domain and go to terminals and heartbeats.
 constexpr std::size_t most_misfits = 32;
 
-// What user data begins with that announces topics. Numbers of 32 bits follow, least significant
+// What user data has that announces topics. Numbers of 32 bits follow, least significant
 // byte first: that of the announcement, then one for each topic. The names of all topics of a
 // deployment would not fit into a datagram, and two that share a number cost a start no more than a
 // wait for nobody.
@@ -51,11 +51,11 @@ std::uint32_t announced_topic(const std::string& topic) {
 /// Of anybody's user data: none when it is no announcement.
 std::set<std::uint32_t> announced_topics(const std::vector<std::uint8_t>& data) {
   std::set<std::uint32_t> topics;
-  if (data.size() < announcement_begin.size() ||
-      !std::equal(announcement_begin.begin(), announcement_begin.end(), data.begin())) {
-    return topics;
-  }
-  for (std::size_t i = announcement_begin.size() + 4;
+  const auto begin =
+      std::search(data.begin(), data.end(), announcement_begin.begin(), announcement_begin.end());
+  if (begin == data.end()) return topics;
+  for (std::size_t i =
+           static_cast<std::size_t>(begin - data.begin()) + announcement_begin.size() + 4;
        i + 4 <= data.size() && topics.size() < most_announced; i += 4) {
     topics.insert(data[i] | static_cast<std::uint32_t>(data[i + 1]) << 8U |
                   static_cast<std::uint32_t>(data[i + 2]) << 16U |
@@ -188,10 +188,13 @@ bool is_server(const rtps::GuidPrefix_t& prefix) {
 
 }  // namespace
 
-std::vector<std::uint8_t> observes_announcement(const std::vector<std::string>& topics,
-                                                std::uint32_t number) {
-  if (topics.empty()) return {};
-  std::vector<std::uint8_t> data(announcement_begin.begin(), announcement_begin.end());
+std::vector<std::uint8_t> participant_announcement(const std::string& text,
+                                                   const std::vector<std::string>& topics,
+                                                   std::uint32_t number) {
+  std::vector<std::uint8_t> data(text.begin(), text.end());
+  if (topics.empty()) return data;
+  if (!text.empty()) data.push_back(0);
+  data.insert(data.end(), announcement_begin.begin(), announcement_begin.end());
   const auto add = [&](std::uint32_t value) {
     for (unsigned shift = 0; shift < 32U; shift += 8U) {
       data.push_back(static_cast<std::uint8_t>(value >> shift));
@@ -248,6 +251,21 @@ std::vector<std::string> KnownEndpoints::mismatches_of_reader(
     add_misfits(topic, name_of(writer.participant), writer.policies, own, requested, texts);
   }
   return texts;
+}
+
+std::vector<WrittenTopic> KnownEndpoints::written() const {
+  std::map<std::string, WrittenTopic> topics;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [guid, writer] : writers_) {
+    WrittenTopic& topic =
+        topics.try_emplace(writer.topic, WrittenTopic{writer.topic, writer.policies.type})
+            .first->second;
+    topic.reliable &= writer.policies.reliability >= dds::RELIABLE_RELIABILITY_QOS;
+    topic.transient_local &= writer.policies.durability >= dds::TRANSIENT_LOCAL_DURABILITY_QOS;
+  }
+  std::vector<WrittenTopic> all;
+  for (auto& [name, topic] : topics) all.push_back(std::move(topic));
+  return all;
 }
 
 std::vector<std::string> KnownEndpoints::written_topics() const {

@@ -22,6 +22,7 @@
 
 #include "services/runtime/dds/fast_dds.hpp"
 #include "services/runtime/dds/last_heard.hpp"
+#include "services/runtime/dds/participant.hpp"
 
 namespace quoin::runtime {
 
@@ -39,11 +40,12 @@ struct EndpointPolicies {
 /// What another participant calls itself or its topics, fit for a log.
 [[nodiscard]] std::string foreign_name(std::string_view text);
 
-/// What a participant announces about the topics that it observes, as its user data. Bounded, so
-/// that the announcement stays one datagram: of more than 128 topics the rest is left out. Only an
-/// announcement with another `number` than the last is sent at once.
-[[nodiscard]] std::vector<std::uint8_t> observes_announcement(
-    const std::vector<std::string>& topics, std::uint32_t number);
+/// What a participant announces as its user data: `text`, and behind a zero, where ROS 2 reads no
+/// further, the topics that it observes. Bounded, so that the announcement stays one datagram: of
+/// more than 128 topics the rest is left out. Only an announcement with another `number` than the
+/// last is sent at once.
+[[nodiscard]] std::vector<std::uint8_t> participant_announcement(
+    const std::string& text, const std::vector<std::string>& topics, std::uint32_t number);
 
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataWriter& writer);
 [[nodiscard]] EndpointPolicies policies_of(const eprosima::fastdds::dds::DataReader& reader);
@@ -69,6 +71,9 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   [[nodiscard]] std::optional<std::uint64_t> incarnation_of_writer(const Guid& writer) const;
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
+  /// The same with what they are written as; one with writers of several types by that of the
+  /// first.
+  [[nodiscard]] std::vector<WrittenTopic> written() const;
 
   /// Number of participants discovered so far, once it is above `seen` or a stop is requested.
   [[nodiscard]] std::uint64_t wait_for_new_participant(std::uint64_t seen,

@@ -29,10 +29,13 @@ ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::
                                                       dds::StatusMask::subscription_matched());
   if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
   reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
+  if (!qos.owner.empty()) owner.impl().owned.add({guid_of(reader->guid()), qos.owner, false});
 }
 
 ReaderBase::Impl::~Impl() {
-  if (reader != nullptr) participant.impl().subscriber->delete_datareader(reader);
+  if (reader == nullptr) return;
+  participant.impl().owned.remove(guid_of(reader->guid()));
+  participant.impl().subscriber->delete_datareader(reader);
 }
 
 void ReaderBase::Impl::on_subscription_matched(dds::DataReader*,
@@ -166,10 +169,13 @@ WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const std::
                                                      writer_qos(qos), this,
                                                      dds::StatusMask::publication_matched());
   if (writer == nullptr) throw std::runtime_error("cannot create DDS writer for '" + topic + "'");
+  if (!qos.owner.empty()) owner.impl().owned.add({guid_of(writer->guid()), qos.owner, true});
 }
 
 WriterBase::Impl::~Impl() {
-  if (writer != nullptr) participant.impl().publisher->delete_datawriter(writer);
+  if (writer == nullptr) return;
+  participant.impl().owned.remove(guid_of(writer->guid()));
+  participant.impl().publisher->delete_datawriter(writer);
 }
 
 void WriterBase::Impl::on_publication_matched(dds::DataWriter*,

@@ -39,6 +39,23 @@
 
 namespace quoin::runtime {
 
+/// See Participant::watch_endpoints. From any thread.
+class OwnedEndpoints {
+ public:
+  using Watcher = std::function<void(const std::vector<OwnedEndpoint>&)>;
+
+  void add(OwnedEndpoint endpoint);
+  void remove(const Guid& guid);
+  void watch(Watcher watcher);
+
+ private:
+  void changed() const;
+
+  std::mutex mutex_;
+  std::vector<OwnedEndpoint> endpoints_;
+  Watcher watcher_;
+};
+
 struct Participant::Impl {
   explicit Impl(std::unique_ptr<KnownEndpoints> others) : endpoints(std::move(others)) {}
 
@@ -49,12 +66,15 @@ struct Participant::Impl {
   Discovery discovery = Discovery::peers;
   std::chrono::steady_clock::time_point created;
   std::jthread answering;  // of an observer; ends before the participant
+  OwnedEndpoints owned;
 
   /// The topic of this name, made at its first use, as its type is; `codec` is null for raw
   /// endpoints. Throws std::runtime_error, also when the topic has another type.
   eprosima::fastdds::dds::Topic* topic(const std::string& name, const std::string& type_name,
                                        const topics::CdrCodec* codec);
 };
+
+[[nodiscard]] Guid guid_of(const fast_dds::rtps::GUID_t& guid);
 
 /// Number of peers of an endpoint, as its listener sees it.
 class MatchState {

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
@@ -52,7 +53,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantConfig& config,
   (void)endpoints;
 #endif
   qos.name(config.name);
-  qos.user_data().setValue(observes_announcement(config.observes, 0));
+  qos.user_data().setValue(participant_announcement(config.user_data, config.observes, 0));
   if (config.security) add_security(*config.security, config.identity, qos);
   return qos;
 }
@@ -70,7 +71,7 @@ constexpr auto complete_after_the_newest = std::chrono::milliseconds(60);
 constexpr std::array answers_after = {std::chrono::milliseconds(20), std::chrono::milliseconds(80)};
 
 void answer_new_participants(const std::stop_token& stop, const KnownEndpoints& endpoints,
-                             dds::DomainParticipant& participant,
+                             dds::DomainParticipant& participant, const std::string& user_data,
                              const std::vector<std::string>& observes) {
   std::mutex mutex;
   std::condition_variable_any never;
@@ -83,7 +84,7 @@ void answer_new_participants(const std::stop_token& stop, const KnownEndpoints& 
       never.wait_for(lock, stop, delay, [] { return false; });
       if (stop.stop_requested()) return;
       dds::DomainParticipantQos qos = participant.get_qos();
-      qos.user_data().setValue(observes_announcement(observes, ++number));
+      qos.user_data().setValue(participant_announcement(user_data, observes, ++number));
       participant.set_qos(qos);
     }
   }
@@ -142,10 +143,10 @@ Participant::Participant(const ParticipantConfig& config)
   impl_->discovery = config.network.discovery;
   impl_->created = std::chrono::steady_clock::now();
   if (!config.observes.empty() && config.network.discovery != Discovery::server) {
-    impl_->answering =
-        std::jthread([&endpoints = *impl_->endpoints, &participant = *impl_->participant,
-                      observes = config.observes](const std::stop_token& stop) {
-          answer_new_participants(stop, endpoints, participant, observes);
+    impl_->answering = std::jthread(
+        [&endpoints = *impl_->endpoints, &participant = *impl_->participant,
+         user_data = config.user_data, observes = config.observes](const std::stop_token& stop) {
+          answer_new_participants(stop, endpoints, participant, user_data, observes);
         });
   }
 }
@@ -161,6 +162,35 @@ std::vector<std::string> Participant::written_topics() const {
   return impl_->endpoints->written_topics();
 }
 
+Guid Participant::guid() const { return guid_of(impl_->participant->guid()); }
+
+void Participant::watch_endpoints(OwnedEndpoints::Watcher watcher) {
+  impl_->owned.watch(std::move(watcher));
+}
+
+void OwnedEndpoints::add(OwnedEndpoint endpoint) {
+  const std::lock_guard lock(mutex_);
+  endpoints_.push_back(std::move(endpoint));
+  changed();
+}
+
+void OwnedEndpoints::remove(const Guid& guid) {
+  const std::lock_guard lock(mutex_);
+  if (std::erase_if(endpoints_, [&](const auto& each) { return each.guid == guid; }) > 0) changed();
+}
+
+void OwnedEndpoints::watch(Watcher watcher) {
+  const std::lock_guard lock(mutex_);
+  watcher_ = std::move(watcher);
+  changed();
+}
+
+void OwnedEndpoints::changed() const {
+  if (watcher_) watcher_(endpoints_);
+}
+
+std::vector<WrittenTopic> Participant::written() const { return impl_->endpoints->written(); }
+
 bool Participant::discovery_complete() const {
   const auto now = std::chrono::steady_clock::now();
   const auto age = now - impl_->created;
@@ -169,6 +199,13 @@ bool Participant::discovery_complete() const {
            now - impl_->endpoints->newest_participant() >= complete_after_the_newest;
   }
   return age >= complete_after_with_server && impl_->endpoints->knows_server();
+}
+
+Guid guid_of(const fast_dds::rtps::GUID_t& guid) {
+  Guid bytes{};
+  std::copy_n(guid.guidPrefix.value, 12, bytes.begin());
+  std::copy_n(guid.entityId.value, 4, bytes.begin() + 12);
+  return bytes;
 }
 
 dds::Topic* Participant::Impl::topic(const std::string& name, const std::string& type_name,

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +14,29 @@
 #include "services/deployment/deployment.hpp"
 
 namespace quoin::runtime {
+
+/// What RTPS calls a participant or an endpoint in all of the domain: 12 bytes of the participant,
+/// 4 of the entity.
+using Guid = std::array<std::uint8_t, 16>;
+
+/// A reader or writer of a participant that belongs to a service, see TopicQos::owner.
+struct OwnedEndpoint {
+  Guid guid{};
+  std::string owner;
+  bool writes = false;
+
+  friend bool operator==(const OwnedEndpoint&, const OwnedEndpoint&) = default;
+};
+
+/// A topic that others write.
+struct WrittenTopic {
+  std::string topic;
+  std::string type;      ///< as DDS has it
+  bool reliable = true;  ///< all writers are
+  bool transient_local = true;
+
+  friend bool operator==(const WrittenTopic&, const WrittenTopic&) = default;
+};
 
 /// How a process takes part in DDS.
 struct ParticipantConfig {
@@ -26,6 +52,8 @@ struct ParticipantConfig {
   /// Topics that it only looks at. Writers that start later can wait for it before their first
   /// message, see WriterBase::awaited_observers. Of more than 128 the rest is not announced.
   std::vector<std::string> observes = {};
+  /// What others find beside that, as "key=value;" where they read it so.
+  std::string user_data = {};
 };
 
 /// Of a participant that takes part in `deployment` as <namespace>/`name`, where security is on
@@ -47,9 +75,16 @@ class Participant {
 
   /// Topics that other participants are known to write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
+  [[nodiscard]] std::vector<WrittenTopic> written() const;
   /// True once the participants that were there before this one are known, unless the network or
   /// the machine is slow; with Discovery::server not before a server answered.
   [[nodiscard]] bool discovery_complete() const;
+
+  [[nodiscard]] Guid guid() const;
+  /// Calls `watcher` at once and whenever a reader or writer with an owner (TopicQos::owner) is
+  /// made or ends, with all of them in the order in which they were made; null for nobody. By
+  /// whoever makes or ends them, one call at a time; it makes none with an owner itself.
+  void watch_endpoints(std::function<void(const std::vector<OwnedEndpoint>&)> watcher);
 
   struct Impl;
   [[nodiscard]] Impl& impl() { return *impl_; }

@@ -38,6 +38,9 @@ struct TopicQos {
   std::optional<int> depth = std::nullopt;
   /// What the endpoint announces beside it, for those who know of it.
   std::string user_data = {};
+  /// Label of the service that it belongs to, where others are to learn that
+  /// (Participant::watch_endpoints).
+  std::string owner = {};
 
   TopicQos(QosPreset preset_of_topic) : preset(preset_of_topic) {}
 };

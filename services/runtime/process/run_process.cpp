@@ -34,6 +34,11 @@ std::vector<Component>& registry() {
   return components;
 }
 
+std::vector<Companion::Functions>& companions() {
+  static std::vector<Companion::Functions> registered;
+  return registered;
+}
+
 struct Options {
   std::string deployment;
   std::string deployment_name;
@@ -310,8 +315,14 @@ int run(const Options& options, const std::vector<Component>& components) {
   }
   auto observers = parse_observers(options.observers);
   const double wait = options.longest_wait.value_or(default_wait(deployment));
+  std::string user_data;
+  for (const Companion::Functions& each : companions()) user_data += each.user_data(deployment);
   Process process(deployment, options.name(), services, std::chrono::duration<double>(wait),
-                  options.held);
+                  options.held, std::move(user_data));
+  std::vector<std::shared_ptr<void>> opened_companions;
+  for (const Companion::Functions& each : companions()) {
+    opened_companions.push_back(each.open(process.participant, deployment, services));
+  }
   Runner runner(signal, process);
   for (std::size_t i = 0; i < services.size(); ++i) {
     const std::string name = label(*services[i]);
@@ -325,6 +336,8 @@ int run(const Options& options, const std::vector<Component>& components) {
 Registration::Registration(Component component) { registry().push_back(std::move(component)); }
 
 const std::vector<Component>& registered_components() { return registry(); }
+
+Companion::Companion(Functions functions) { companions().push_back(std::move(functions)); }
 
 int run_process(int argc, char** argv, const std::vector<Component>& components) {
   report_uncaught_exceptions();

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 
 namespace quoin::runtime {
 
+class Participant;
 struct Service;
 
 /// A kind, and what a service of it does.
@@ -47,6 +49,23 @@ class Registration {
   explicit Registration(Component component);
 };
 [[nodiscard]] const std::vector<Component>& registered_components();
+
+/// What stands beside the services of every process of a program, whatever their kinds are; made
+/// known as a Registration does.
+class Companion {
+ public:
+  struct Functions {
+    /// What the participant announces as its user data; "" for nothing. One companion of a process
+    /// may have some.
+    std::function<std::string(const Deployment&)> user_data;
+    /// Made once there is a participant, and kept until the services have ended; null where there
+    /// is nothing to do.
+    std::function<std::shared_ptr<void>(Participant&, const Deployment&,
+                                        const std::vector<const ServiceConfig*>& services)>
+        open;
+  };
+  explicit Companion(Functions functions);
+};
 
 /// The main function of a process with one service (--service), or those that the deployment puts
 /// into one process (--process): command line, log, deployment file, signals. On SIGTERM and SIGINT

@@ -15,8 +15,9 @@ namespace {
 /// Observers announce what they observe: who begins to write waits for them.
 ParticipantConfig participant_of(const Deployment& deployment, const std::string& name,
                                  const std::vector<const ServiceConfig*>& services,
-                                 const Graph& graph) {
+                                 const Graph& graph, std::string user_data) {
   ParticipantConfig participant = participant_config(deployment, name);
+  participant.user_data = std::move(user_data);
   for (const ServiceConfig* service : services) {
     if (!service->info->observer) continue;
     for (const Connection& input : graph.inputs_of(*service)) {
@@ -30,9 +31,10 @@ ParticipantConfig participant_of(const Deployment& deployment, const std::string
 
 Process::Process(const Deployment& deployment, const std::string& name,
                  const std::vector<const ServiceConfig*>& services,
-                 std::chrono::duration<double> wait_for_readers, bool to_take_over)
+                 std::chrono::duration<double> wait_for_readers, bool to_take_over,
+                 std::string user_data)
     : graph(deployment),
-      participant(participant_of(deployment, name, services, graph)),
+      participant(participant_of(deployment, name, services, graph, std::move(user_data))),
       heartbeat(participant, deployment.name_space),
       control(participant, deployment.name_space),
       longest_wait_for_readers(wait_for_readers),

@@ -32,9 +32,11 @@ struct Process {
   std::chrono::duration<double> longest_wait_for_readers;
   bool held;  ///< to take over from another process of the services
 
+  /// `user_data`: of the participant.
   Process(const Deployment& deployment, const std::string& name,
           const std::vector<const ServiceConfig*>& services,
-          std::chrono::duration<double> wait_for_readers, bool to_take_over);
+          std::chrono::duration<double> wait_for_readers, bool to_take_over,
+          std::string user_data = {});
 };
 
 /// A service of a process; its work is done in a thread of its own.

@@ -117,7 +117,7 @@ TEST(Plan, TheRestartPolicyIsTheSupervisorsBusiness) {
   EXPECT_TRUE(plan_changes(deployment(chain), deployment(wanted)).nothing_to_do());
 }
 
-TEST(Plan, NamespaceAndDomainStay) {
+TEST(Plan, NamespaceDomainAndDistributionStay) {
   const auto obstacles = [](const std::string& head) {
     return plan_changes(deployment(chain, "namespace: a\ndomain: 1\n"), deployment(chain, head))
         .obstacles;
@@ -127,6 +127,8 @@ TEST(Plan, NamespaceAndDomainStay) {
               ElementsAre(HasSubstr("the namespace cannot be changed from 'a' to 'b'")));
   EXPECT_THAT(obstacles("namespace: a\ndomain: 2\n"),
               ElementsAre(HasSubstr("the domain cannot be changed from 1 to 2")));
+  EXPECT_THAT(obstacles("namespace: a\ndomain: 1\nros: {distro: iron}\n"),
+              ElementsAre(HasSubstr("the distribution of ROS 2 cannot be changed")));
 }
 
 TEST(Plan, CountsInstancesAndHostsApart) {

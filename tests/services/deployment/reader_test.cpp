@@ -89,6 +89,20 @@ TEST(Reader, ReadsWhereTheKeysAre) {
   EXPECT_EQ(relative.security->directory, std::filesystem::current_path() / "keys");
 }
 
+TEST(Reader, ReadsWhoseGraphOfNodesShowsTheServices) {
+  const auto ros = [](const std::string& line) {
+    return deploy::parse_deployment(
+               "version: 1\n" + line + "services:\n  - {name: front, kind: simulated}\n",
+               "robot.yaml")
+        .ros;
+  };
+  EXPECT_EQ(ros(""), std::nullopt);
+  EXPECT_EQ(ros("ros: {distro: humble}\n"), RosDistro::humble);
+  EXPECT_EQ(ros("ros: {distro: iron}\n"), RosDistro::iron);
+  EXPECT_EQ(ros("ros: {distro: jazzy}\n"), RosDistro::jazzy);
+  EXPECT_EQ(ros("ros: {distro: rolling}\n"), RosDistro::rolling);
+}
+
 TEST(Reader, FindsOthersByMulticastWhereNothingElseIsSaid) {
   const auto discovery = [](const std::string& network) {
     return deploy::parse_deployment(
