@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/command/commands.hpp"
+#include "deploy/command/record_ros.hpp"
 #include "deploy/kinds/kinds.hpp"
 #include "deploy/orchestration/signals.hpp"
 #include "sensor_bridge/message_files/mcap_writer.hpp"
@@ -35,6 +36,7 @@ struct RecordOptions {
   std::string compression = "zstd";
   std::vector<std::string> services;
   double duration = 0.0;  // [s] 0: no end
+  bool ros = false;
   bool json = false;
 };
 
@@ -170,6 +172,14 @@ int run(const RecordOptions& given) {
          {"compression", options.compression},
          {"split", options.parameters.split},
          {"keep_free", std::to_string(options.parameters.keep_free)}});
+    if (options.ros) {
+      const std::string file = recording_file(path).string();
+      return record_ros(deployment, {.file = file,
+                                     .compression = options.parameters.compression,
+                                     .keep_free = options.parameters.keep_free,
+                                     .duration = options.duration,
+                                     .json = options.json});
+    }
     return record(deployment, options);
   } catch (const ParameterError& error) {
     std::cerr << error.what() << '\n';
@@ -192,6 +202,10 @@ Command add_record(CLI::App& app) {
       ->required();
   line->add_option("--services", options->services, "Only these, separated by commas")
       ->delimiter(',');
+  line->add_flag("--ros", options->ros,
+                 "In place of what services publish: the topics of ROS 2 in the domain, as ROS 2 "
+                 "records them")
+      ->excludes("--services");
   line->add_option("--duration", options->duration, "End after this many seconds")
       ->check(more_than_zero());
   line->add_option("--split", options->parameters.split,

@@ -53,7 +53,9 @@ std::string utc_time() {
   return text.data();
 }
 
-fs::path file_to_write(const fs::path& path) {
+}  // namespace
+
+fs::path recording_file(const fs::path& path) {
   if (path.filename().empty() || fs::is_directory(path)) return path / (utc_time() + ".mcap");
   if (path.extension() != ".mcap") {
     throw ParameterError(
@@ -61,8 +63,6 @@ fs::path file_to_write(const fs::path& path) {
   }
   return path;
 }
-
-}  // namespace
 
 Split parse_split(std::string_view text) {
   if (text.empty()) return {};
@@ -81,7 +81,7 @@ Split parse_split(std::string_view text) {
 Recording::Recording(const fs::path& path, const RecorderParameters& parameters,
                      std::vector<RecordedTopic> topics, RunFacts facts)
     : parameters_(parameters),
-      base_(file_to_write(path)),
+      base_(recording_file(path)),
       split_(parse_split(parameters.split)),
       facts_(std::move(facts)) {
   for (RecordedTopic& topic : topics) {

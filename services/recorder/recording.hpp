@@ -30,6 +30,10 @@ struct Split {
 /// "10min", "1 h", "90s", "500MB", "1 GB" or "". Throws ParameterError.
 [[nodiscard]] Split parse_split(std::string_view text);
 
+/// The file that a recording to `path` begins with: itself, or in a folder one of the present time.
+/// Throws ParameterError for a file of another format.
+[[nodiscard]] std::filesystem::path recording_file(const std::filesystem::path& path);
+
 /// A topic to record.
 struct RecordedTopic {
   std::string topic;
