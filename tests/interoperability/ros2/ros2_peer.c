@@ -42,7 +42,10 @@ static const struct Type {
 static const char* const usage =
     "usage: %s write DOMAIN TOPIC best_effort|reliable READERS RATE COUNT [FILE]\n"
     "publishes COUNT LaserScans at RATE Hz once READERS are there: of a room, or one a line of FILE:\n"
-    "FRAME ANGLE_MIN ANGLE_MAX ANGLE_INCREMENT TIME_INCREMENT SCAN_TIME RANGE_MIN RANGE_MAX N RANGE...\n"
+    "FRAME[@SEC:NSEC] ANGLE_MIN ANGLE_MAX ANGLE_INCREMENT TIME_INCREMENT SCAN_TIME RANGE_MIN RANGE_MAX N RANGE... INTENSITY...\n"
+    "       %s odometry DOMAIN TOPIC READERS RATE FILE\n"
+    "publishes Odometry, best effort, one a line of FILE: FRAME[@SEC:NSEC] CHILD X Y QX QY QZ QW, the covariance\n"
+    "XX XY YY XT YT TT, VX VY WZ and the first element of the covariance of the twist; - is an empty frame\n"
     "       %s read DOMAIN TOPIC PACKAGE/msg/TYPE best_effort|reliable|latched ...\n"
     "prints \"writer TOPIC TYPE USER_DATA\" for each writer that is matched and \"sample TOPIC CDR\" in\n"
     "hexadecimal digits for each message, until it is ended\n";
@@ -161,9 +164,28 @@ static void measure_room(sensor_msgs_msg_LaserScan* scan) {
   }
 }
 
-static float next_number(void) {
+static double next_double(void) {
   const char* word = strtok(NULL, " \n");
-  return word == NULL ? NAN : strtof(word, NULL);
+  return word == NULL ? NAN : strtod(word, NULL);
+}
+
+static float next_number(void) { return (float)next_double(); }
+
+/// FRAME or FRAME@SEC:NSEC; without a stamp it is now.
+static void read_header(const char* word, char* frame, size_t size, std_msgs_msg_Header* header) {
+  const dds_time_t now = dds_time();
+  header->stamp.sec = (int32_t)(now / DDS_SECS(1));
+  header->stamp.nanosec = (uint32_t)(now % DDS_SECS(1));
+  snprintf(frame, size, "%s", word == NULL ? "" : word);
+  char* at = strchr(frame, '@');
+  if (at != NULL) {
+    char* end = NULL;
+    header->stamp.sec = (int32_t)strtol(at + 1, &end, 10);
+    header->stamp.nanosec = *end == ':' ? (uint32_t)strtoul(end + 1, NULL, 10) : 0;
+    *at = '\0';
+  }
+  if (strcmp(frame, "-") == 0) frame[0] = '\0';
+  header->frame_id = frame;
 }
 
 /// False at the end of the file.
@@ -171,9 +193,7 @@ static bool read_scan(FILE* file, sensor_msgs_msg_LaserScan* scan) {
   static char line[16 * most_rays];
   static char frame[64];
   if (fgets(line, sizeof line, file) == NULL) return false;
-  const char* word = strtok(line, " \n");
-  snprintf(frame, sizeof frame, "%s", word == NULL || strcmp(word, "-") == 0 ? "" : word);
-  scan->header.frame_id = frame;
+  read_header(strtok(line, " \n"), frame, sizeof frame, &scan->header);
   scan->angle_min = next_number();
   scan->angle_max = next_number();
   scan->angle_increment = next_number();
@@ -184,7 +204,19 @@ static bool read_scan(FILE* file, sensor_msgs_msg_LaserScan* scan) {
   const float count = next_number();
   scan->ranges._length = count > 0.0F && count <= most_rays ? (uint32_t)count : 0;
   for (uint32_t i = 0; i < scan->ranges._length; ++i) scan->ranges._buffer[i] = next_number();
+  scan->intensities._length = 0;
+  for (float value = next_number(); !isnan(value) && scan->intensities._length < most_rays; value = next_number()) {
+    scan->intensities._buffer[scan->intensities._length++] = value;
+  }
   return true;
+}
+
+static void wait_for_readers(dds_entity_t writer, uint32_t readers) {
+  dds_publication_matched_status_t matched = {0};
+  while (dds_get_publication_matched_status(writer, &matched) == DDS_RETCODE_OK && matched.current_count < readers) {
+    dds_sleepfor(DDS_MSECS(10));
+  }
+  dds_sleepfor(DDS_MSECS(200));  // the readers know of the writer
 }
 
 static int write_scans(int argc, char** argv) {
@@ -205,17 +237,18 @@ static int write_scans(int argc, char** argv) {
   sensor_msgs_msg_LaserScan scan = {.header = {.frame_id = "laser"}};
   scan.ranges._buffer = ranges;
   scan.ranges._maximum = most_rays;
+  static float intensities[most_rays];
+  scan.intensities._buffer = intensities;
+  scan.intensities._maximum = most_rays;
   measure_room(&scan);
-  dds_publication_matched_status_t matched = {0};
-  while (dds_get_publication_matched_status(writer, &matched) == DDS_RETCODE_OK && matched.current_count < readers) {
-    dds_sleepfor(DDS_MSECS(10));
-  }
-  dds_sleepfor(DDS_MSECS(200));  // the readers know of the writer
+  wait_for_readers(writer, readers);
   for (int32_t i = 0; i < count; ++i) {
-    if (file != NULL && !read_scan(file, &scan)) break;
-    const dds_time_t now = dds_time();
-    scan.header.stamp.sec = (int32_t)(now / DDS_SECS(1));
-    scan.header.stamp.nanosec = (uint32_t)(now % DDS_SECS(1));
+    if (file != NULL) {
+      if (!read_scan(file, &scan)) break;
+    } else {
+      static char frame[8];
+      read_header("laser", frame, sizeof frame, &scan.header);
+    }
     const dds_return_t written = dds_write(writer, &scan);
     if (written != DDS_RETCODE_OK) {
       fprintf(stderr, "cannot write: %s\n", dds_strretcode(written));
@@ -230,9 +263,59 @@ static int write_scans(int argc, char** argv) {
   return dds_delete(participant) == DDS_RETCODE_OK ? 0 : 1;
 }
 
+static int write_odometry(char** argv) {
+  const dds_entity_t participant = join_domain(argv[2]);
+  const dds_entity_t topic = create_topic(participant, argv[3], type_named("nav_msgs/msg/Odometry"));
+  dds_qos_t* qos = ros2_qos("best_effort");
+  const dds_entity_t writer = made(dds_create_writer(participant, topic, qos, NULL), argv[3]);
+  dds_delete_qos(qos);
+  FILE* file = fopen(argv[6], "r");
+  if (file == NULL) {
+    perror(argv[6]);
+    return 1;
+  }
+  wait_for_readers(writer, (uint32_t)positive_number(argv[4], "the number of readers"));
+  const int32_t rate = positive_number(argv[5], "the rate");
+  char line[1024];
+  while (fgets(line, sizeof line, file) != NULL) {
+    char frame[64];
+    nav_msgs_msg_Odometry odometry = {0};
+    read_header(strtok(line, " \n"), frame, sizeof frame, &odometry.header);
+    char* child = strtok(NULL, " \n");
+    odometry.child_frame_id = child != NULL && strcmp(child, "-") != 0 ? child : "";
+    odometry.pose.pose.position.x = next_double();
+    odometry.pose.pose.position.y = next_double();
+    odometry.pose.pose.orientation.x = next_double();
+    odometry.pose.pose.orientation.y = next_double();
+    odometry.pose.pose.orientation.z = next_double();
+    odometry.pose.pose.orientation.w = next_double();
+    enum { x = 0, y = 1, yaw = 5 };
+    static const int places[6][2] = {{x, x}, {x, y}, {y, y}, {x, yaw}, {y, yaw}, {yaw, yaw}};
+    for (int i = 0; i < 6; ++i) {
+      const double value = next_double();
+      odometry.pose.covariance[6 * places[i][0] + places[i][1]] = value;
+      odometry.pose.covariance[6 * places[i][1] + places[i][0]] = value;
+    }
+    odometry.twist.twist.linear.x = next_double();
+    odometry.twist.twist.linear.y = next_double();
+    odometry.twist.twist.angular.z = next_double();
+    odometry.twist.covariance[0] = next_double();
+    const dds_return_t written = dds_write(writer, &odometry);
+    if (written != DDS_RETCODE_OK) {
+      fprintf(stderr, "cannot write: %s\n", dds_strretcode(written));
+      return 1;
+    }
+    dds_sleepfor(DDS_SECS(1) / rate);
+  }
+  fclose(file);
+  dds_sleepfor(DDS_MSECS(500));
+  return dds_delete(participant) == DDS_RETCODE_OK ? 0 : 1;
+}
+
 int main(int argc, char** argv) {
   if (argc >= 8 && strcmp(argv[1], "write") == 0) return write_scans(argc, argv);
   if (argc >= 6 && argc % 3 == 0 && strcmp(argv[1], "read") == 0) read_topics(argc, argv);
-  fprintf(stderr, usage, argv[0], argv[0]);
+  if (argc == 7 && strcmp(argv[1], "odometry") == 0) return write_odometry(argv);
+  fprintf(stderr, usage, argv[0], argv[0], argv[0]);
   return 2;
 }
