@@ -128,7 +128,7 @@ void LandmarkGraph::drop_loop(std::size_t edge) {
 }
 
 double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covariance,
-                           std::vector<int>& order_of_elimination) {
+                           std::vector<int>& order_of_elimination, bool trust_loops) {
   const int poses = static_cast<int>(keyframes_.size());
   const int size = 3 * poses + 2 * static_cast<int>(landmarks_.size());
   Equations equations;
@@ -148,7 +148,7 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
     Eigen::Matrix3d information = edge.information;
     const double squared = error.dot(information * error);
     const double scale = edge.closes_loop ? loop_scale : motion_scale;
-    if (squared > scale * scale) {
+    if (squared > scale * scale && !(trust_loops && edge.closes_loop)) {
       const double deviations = std::sqrt(squared);
       information *= scale / deviations;
       cost += scale * (deviations - 0.5 * scale);
@@ -248,10 +248,10 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
   return cost;
 }
 
-double LandmarkGraph::optimize(int steps) {
+double LandmarkGraph::optimize(int steps, bool trust_loops) {
   double cost = 0.0;
   std::vector<int> order;
-  for (int i = 0; i < steps; ++i) cost = step({}, nullptr, order);
+  for (int i = 0; i < steps; ++i) cost = step({}, nullptr, order, trust_loops);
   return cost;
 }
 

@@ -70,8 +70,9 @@ class LandmarkGraph {
   void merge(std::size_t kept, std::size_t dropped);
 
   /// Steps of Gauss-Newton. Returns the robust cost before the last one: half the chi square of
-  /// what no wrong match distorts.
-  double optimize(int steps);
+  /// what no wrong match distorts. With `trust_loops` what closes loops bends the map however far
+  /// it has to.
+  double optimize(int steps, bool trust_loops = false);
 
   /// The covariance of (pose of the keyframe, phi and offset of these landmarks), as of the last
   /// Gauss-Newton step, which it takes: (3 + 2 n) squared.
@@ -102,7 +103,8 @@ class LandmarkGraph {
   };
 
   /// One step with these variables last in the order of elimination; returns the cost before it.
-  double step(std::span<const int> last, Eigen::MatrixXd* covariance, std::vector<int>& order);
+  double step(std::span<const int> last, Eigen::MatrixXd* covariance, std::vector<int>& order,
+              bool trust_loops = false);
 
   std::vector<Keyframe> keyframes_;
   std::vector<Edge> edges_;

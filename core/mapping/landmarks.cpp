@@ -37,7 +37,9 @@ constexpr double largest_fall = 0.3;  // of that share, from one scan to the nex
 constexpr double loop_reach = 12.0;   // [m] of the points that loops are found by
 const Eigen::Matrix3d unknown_place = Eigen::Vector3d(0.25, 0.25, 0.1).asDiagonal();
 constexpr double loop_gate = 30.0;
-constexpr double point_spacing = 0.05;  // [m] of a scan
+constexpr double loop_cost = 100.0;      // of what closes a loop, for each pair of keyframes
+constexpr double loop_pair_apart = 0.5;  // [m] between pairs that count
+constexpr double point_spacing = 0.05;   // [m] of a scan
 // A pose that is found in the whole map.
 constexpr std::size_t least_points = 40;    // of a scan
 constexpr double least_found_share = 0.8;   // of them that lie on the map
@@ -830,27 +832,43 @@ bool Landmarks::close_loop() {
   edge.motion.pose = between(base, best->estimate.pose);
   edge.motion.covariance = in_frame_of(base, best->estimate.covariance);
   std::erase_if(pending_loops_, [&](const auto& pending) { return pending.to + 20 < now; });
-  // Where both pairs put the earlier one of the two new keyframes, seen from the later one.
-  const auto earlier =
-      std::find_if(pending_loops_.begin(), pending_loops_.end(), [&](const auto& pending) {
-        const Pose2 one = compose(keyframes[pending.from].pose, pending.motion.pose);
-        const Pose2 two = compose(base, edge.motion.pose);
-        const Pose2 off = between(between(keyframes[pending.to].pose, here), between(one, two));
-        return std::hypot(off.x, off.y) < 0.3 && std::abs(off.theta) < 0.06;
-      });
-  if (earlier == pending_loops_.end()) {
+  // Pairs that put their keyframes where this one does, seen from the last one. Those from one
+  // place say the same again.
+  std::vector<LandmarkGraph::Edge> agreeing;
+  Pose2 last = here;
+  for (auto pending = pending_loops_.rbegin(); pending != pending_loops_.rend(); ++pending) {
+    const Pose2 to = keyframes[pending->to].pose;
+    if (!agreeing.empty() && std::hypot(to.x - last.x, to.y - last.y) < loop_pair_apart) continue;
+    const Pose2 one = compose(keyframes[pending->from].pose, pending->motion.pose);
+    const Pose2 two = compose(base, edge.motion.pose);
+    const Pose2 off = between(between(to, here), between(one, two));
+    if (std::hypot(off.x, off.y) >= 0.3 || std::abs(off.theta) >= 0.06) continue;
+    agreeing.push_back(*pending);
+    last = to;
+  }
+  if (agreeing.empty()) {
     pending_loops_.push_back(edge);
     return false;
   }
   LandmarkGraph tried = graph_;
-  const double before = tried.optimize(1);
-  tried.close_loop(earlier->from, earlier->to, earlier->motion);
+  const double before = tried.optimize(3);
+  const std::size_t first_loop = tried.edges().size();
+  for (const LandmarkGraph::Edge& pair : agreeing) {
+    tried.close_loop(pair.from, pair.to, pair.motion);
+  }
   tried.close_loop(edge.from, edge.to, edge.motion);
-  const double after = tried.optimize(5);
-  const auto& edges = tried.edges();
-  const double chi =
-      std::max(tried.chi_square(edges[edges.size() - 2]), tried.chi_square(edges.back()));
-  if (chi > loop_gate || after - before > 100.0) return false;
+  const double after = tried.optimize(6, true);
+  tried.optimize(3);  // it has to hold without, too
+  double chi = 0.0;
+  for (std::size_t i = first_loop; i < tried.edges().size(); ++i) {
+    chi = std::max(chi, tried.chi_square(tried.edges()[i]));
+  }
+  // A map is more certain of itself than it should be, by errors that scans have in common. What
+  // bends it far needs more pairs.
+  if (chi > loop_gate || after - before > loop_cost * static_cast<double>(agreeing.size())) {
+    pending_loops_.push_back(edge);
+    return false;
+  }
   graph_ = std::move(tried);
   pending_loops_.clear();
   ++closed_loops_;

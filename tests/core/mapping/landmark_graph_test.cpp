@@ -115,5 +115,52 @@ TEST(LandmarkGraph, MergesAWallThatWasSeenAsTwo) {
   EXPECT_EQ(example.graph.keyframes()[4].observations.back().landmark, 1U);
 }
 
+TEST(LandmarkGraph, UndoesAWrongLoop) {
+  Example example(3);
+  LandmarkGraph& graph = example.graph;
+  graph.optimize(8);
+  const std::size_t twin = graph.add_landmark(graph.landmarks()[1]);
+  graph.observe(4, twin, graph.keyframes()[4].observations[1].measurement);
+  graph.optimize(8);
+  const Pose2 right = graph.keyframes()[4].pose;
+  PoseEstimate wrong{between(example.truth[0], example.truth[4]),
+                     1e-4 * Eigen::Matrix3d::Identity()};
+  wrong.pose.y += 0.5;
+  graph.close_loop(0, 4, wrong);
+  graph.merge(1, twin);
+  graph.optimize(8);
+  const Pose2 bent = graph.keyframes()[4].pose;
+  EXPECT_GT(std::hypot(bent.x - right.x, bent.y - right.y), 0.01);
+  EXPECT_GT(graph.chi_square(graph.edges().back()), 100.0);
+  graph.drop_loop(graph.edges().size() - 1);
+  graph.optimize(12);
+  EXPECT_NEAR(graph.keyframes()[4].pose.x, right.x, 1e-4);
+  EXPECT_NEAR(graph.keyframes()[4].pose.y, right.y, 1e-4);
+  EXPECT_TRUE(graph.landmarks()[twin].alive);
+  EXPECT_EQ(graph.keyframes()[4].observations.back().landmark, twin);
+}
+
+TEST(LandmarkGraph, BendsFartherForLoopsThatAreTrusted) {
+  // Twenty steps of 2 mm deviation each, which end 0.3 m from where a loop of 10 mm has them.
+  constexpr int steps = 20;
+  constexpr double chain = steps * 0.002 * 0.002;
+  constexpr double loop = 0.01 * 0.01;
+  constexpr double off = 0.3;
+  LandmarkGraph graph;
+  graph.add_keyframe(0, {}, {});
+  const PoseEstimate step{{0.5, 0.0, 0.0}, 4e-6 * Eigen::Matrix3d::Identity()};
+  for (int i = 1; i <= steps; ++i) {
+    graph.add_keyframe(static_cast<std::size_t>(i) - 1, {0.5 * i, 0.0, 0.0}, step);
+  }
+  graph.close_loop(0, steps, {{0.5 * steps + off, 0.0, 0.0}, loop * Eigen::Matrix3d::Identity()});
+  graph.optimize(12);
+  const double limited = graph.chi_square(graph.edges().back());
+  graph.optimize(12, true);
+  const double trusted = graph.chi_square(graph.edges().back());
+  const double remainder = off * loop / (loop + chain);  // least squares
+  EXPECT_NEAR(trusted, remainder * remainder / loop, 1.0);
+  EXPECT_GT(limited, 1.5 * trusted);
+}
+
 }  // namespace
 }  // namespace quoin
