@@ -114,9 +114,15 @@ void LandmarkGraph::drop_loop(std::size_t edge) {
     kept.high = merge.kept_before.high;
     dropped = merge.dropped_before;
     dropped.observations = 0;
+    // What had been merged into the dropped one before goes with it.
+    std::vector<char> members(landmarks_.size(), 0);
+    members[merge.dropped] = 1;
+    for (std::size_t m = merges_.size() - 1; m-- > 0;) {
+      if (members[merges_[m].kept] != 0) members[merges_[m].dropped] = 1;
+    }
     for (std::size_t k = 0; k < keyframes_.size(); ++k) {
       for (Observation& observation : keyframes_[k].observations) {
-        if (observation.landmark != merge.kept || observation.made_as != merge.dropped) continue;
+        if (observation.landmark != merge.kept || members[observation.made_as] == 0) continue;
         observation.landmark = merge.dropped;
         --kept.observations;
         ++dropped.observations;
@@ -165,9 +171,11 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
     equations.gradient.segment<3>(earlier) += weighted_before * error;
     equations.gradient.segment<3>(own) += weighted_pose * error;
   }
+  std::vector<char> seen(landmarks_.size(), 0);
   for (int k = 0; k < poses; ++k) {
     const Keyframe& keyframe = keyframes_[static_cast<std::size_t>(k)];
     for (const Observation& observation : keyframe.observations) {
+      seen[observation.landmark] = 1;
       const LineResidual residual =
           line_residual(keyframe.pose, landmarks_[observation.landmark], observation.measurement);
       Eigen::Matrix2d information = observation.measurement.covariance.inverse();
@@ -191,7 +199,7 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
     }
   }
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    if (landmarks_[i].alive) continue;
+    if (landmarks_[i].alive && seen[i] != 0) continue;
     const int at = 3 * poses + 2 * static_cast<int>(i);
     equations.add(at, at, Eigen::Matrix2d(Eigen::Matrix2d::Identity()));
   }

@@ -673,15 +673,17 @@ void Landmarks::refresh() {
   }
   std::sort(around.begin(), around.end());
   if (around.size() > most_active) around.resize(most_active);
-  active_.clear();
-  for (const auto& [distance, index] : around) active_.push_back(index);
-  std::sort(active_.begin(), active_.end());
+  std::vector<std::size_t> active;
+  for (const auto& [distance, index] : around) active.push_back(index);
+  std::sort(active.begin(), active.end());
   if (given_.empty()) {
-    const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active_);
+    const Eigen::MatrixXd covariance = graph_.marginal_after_step(keyframe, active);
     if (covariance.rows() == 0) return;
+    active_ = std::move(active);
     belief_.covariance = covariance;
     belief_.pose = graph_.keyframes()[keyframe].pose;
   } else {
+    active_ = std::move(active);
     const auto size = static_cast<Eigen::Index>(3 + 2 * active_.size());
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
     covariance.topLeftCorner<3, 3>() = belief_.covariance.topLeftCorner<3, 3>();

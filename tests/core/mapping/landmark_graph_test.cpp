@@ -140,6 +140,29 @@ TEST(LandmarkGraph, UndoesAWrongLoop) {
   EXPECT_EQ(graph.keyframes()[4].observations.back().landmark, twin);
 }
 
+TEST(LandmarkGraph, UndoesMergesOfMergedWalls) {
+  Example example(3);
+  LandmarkGraph& graph = example.graph;
+  const LineMeasurement m = graph.keyframes()[4].observations[1].measurement;
+  LineLandmark twin = graph.landmarks()[1];
+  twin.observations = 0;
+  const std::size_t second = graph.add_landmark(twin);
+  const std::size_t third = graph.add_landmark(twin);
+  graph.observe(4, second, m);
+  graph.observe(4, third, m);
+  graph.close_loop(0, 4,
+                   {between(example.truth[0], example.truth[4]), Eigen::Matrix3d::Identity()});
+  graph.merge(second, third);
+  graph.merge(1, second);
+  graph.drop_loop(graph.edges().size() - 1);
+  const auto& seen = graph.keyframes()[4].observations;
+  EXPECT_EQ(seen[3].landmark, second);
+  EXPECT_EQ(seen[4].landmark, third);
+  EXPECT_EQ(graph.landmarks()[1].observations, 5U);
+  EXPECT_EQ(graph.landmarks()[second].observations, 1U);
+  EXPECT_EQ(graph.landmarks()[third].observations, 1U);
+}
+
 TEST(LandmarkGraph, BendsFartherForLoopsThatAreTrusted) {
   // Twenty steps of 2 mm deviation each, which end 0.3 m from where a loop of 10 mm has them.
   constexpr int steps = 20;
