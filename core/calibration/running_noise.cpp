@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/calibration/running_noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,6 +18,10 @@ constexpr std::size_t fewest_walls = 100;
 // From block to block of recorded scans, with the rooms that a robot drives through, the noise
 // changes by up to 1.35 times.
 constexpr double jump = 1.5;
+// [m] No range is told apart by less. Scans without noise, of simulators, would otherwise give
+// lines and corners with covariances of 0, which no filter can use, and no noise could be compared
+// with the next.
+constexpr double least_range_stddev = 1e-4;
 
 /// Residuals of the walls of scans [begin, end) about lines that are fitted under the model.
 ResidualTable residuals_of(const WallSample& sample, std::size_t begin, std::size_t end,
@@ -73,6 +78,7 @@ RunningNoise::Event RunningNoise::add(const PointsView& points, std::span<const 
   for (int round = 0; round < rounds; ++round) {
     const ResidualTable all = residuals_of(window_, 0, scan_, model);
     components_ = find_components(all, all.walls(), model);
+    components_->range_stddev = std::max(components_->range_stddev, least_range_stddev);
     model = components_->model();
   }
   return event;

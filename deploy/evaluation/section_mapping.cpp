@@ -301,8 +301,14 @@ class MappingSection : public Section {
     if (!scenarios_.empty()) {
       rows.push_back({"wrong runs of scenarios",
                       std::to_string(wrong) + " of " + std::to_string(scenarios_.size()), ""});
-      rows.back().resize(rows.front().size());
     }
+    for (const LogEntry& entry : logs_) {
+      rows.push_back({files_[entry.file].name + " [m]",
+                      spread(entry.at_scans.translation) + ", " +
+                          std::to_string(entry.at_scans.translation.size()) + " relations at scans",
+                      entry.has_odometry ? "yes" : "no"});
+    }
+    for (auto& row : rows) row.resize(rows.front().size());
     return rows;
   }
 

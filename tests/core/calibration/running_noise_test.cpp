@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/simulation/random.hpp"
@@ -55,6 +56,14 @@ TEST_F(RunningNoiseTest, IsKnownAfterTheFirstBlock) {
 TEST_F(RunningNoiseTest, SteadyNoiseDoesNotJump) {
   EXPECT_EQ(run(300, 0.01), std::vector(6, Event::renewed));
   EXPECT_NEAR(noise_.components()->range_stddev, 0.01, 0.0005);
+}
+
+TEST_F(RunningNoiseTest, IsNeverNothingAndLeavesThat) {
+  (void)run(200, 0.0);
+  EXPECT_GE(noise_.components()->range_stddev, 1e-4);
+  EXPECT_LT(noise_.components()->range_stddev, 0.001);
+  EXPECT_THAT(run(200, 0.01), testing::Contains(Event::jump));
+  EXPECT_NEAR(noise_.components()->range_stddev, 0.01, 0.001);
 }
 
 TEST_F(RunningNoiseTest, FollowsAJumpAtOnce) {
