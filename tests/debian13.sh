@@ -10,14 +10,14 @@ usage() {
   cat <<'TEXT'
 usage: tests/debian13.sh [--cache FOLDER] [--mirror URL] [--quick] [-- ARGUMENTS]
   --cache FOLDER  where the root, its build and its ccache are kept for the next run (/var/cache/quoin-debian13)
-  --mirror URL    Debian mirror (http://deb.debian.org/debian)
+  --mirror URL    Debian mirror (the one that this machine's packages come from)
   --quick         leave out tests/run.sh: only what deploy/quickstart.sh does
   ARGUMENTS       for tests/run.sh in the root (--no-sanitizers)
 Needs root, debootstrap and the network. Builds a copy of this tree; nothing outside of FOLDER is changed.
 TEXT
 }
 cache=/var/cache/quoin-debian13
-mirror=http://deb.debian.org/debian
+mirror=
 quick=false
 arguments=(--no-sanitizers)
 while [[ $# -gt 0 ]]; do
@@ -37,6 +37,10 @@ fi
 if ! command -v debootstrap >/dev/null; then
   echo "debian13.sh: needs debootstrap (apt-get install debootstrap)" >&2
   exit 1
+fi
+if [[ -z $mirror ]]; then
+  # shellcheck disable=SC2016
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' | grep -v security | sort -u | head -n 1)
 fi
 mkdir -p "$cache"
 cache=$(cd "$cache" && pwd)
