@@ -27,6 +27,13 @@ const std::map<std::string, ScanSource> source_names{{"simulated", ScanSource::s
                                                      {"ros2", ScanSource::ros2},
                                                      {"recording", ScanSource::recording}};
 
+const std::map<std::string, bool FirstDeployment::*> additions{
+    {"circles", &FirstDeployment::circles},
+    {"map", &FirstDeployment::map},
+    {"page", &FirstDeployment::page},
+    {"recorder", &FirstDeployment::recorder},
+    {"ros2", &FirstDeployment::ros2_output}};
+
 struct InitOptions {
   std::string file = "robot.yaml";
   std::string source;
@@ -74,16 +81,6 @@ void ask_all(InitOptions& options) {
   first.ros2_output = ask_yes("Lines and corners to ROS 2?");
 }
 
-void apply_additions(InitOptions& options) {
-  for (const std::string& addition : options.additions) {
-    if (addition == "circles") options.first.circles = true;
-    if (addition == "map") options.first.map = true;
-    if (addition == "page") options.first.page = true;
-    if (addition == "recorder") options.first.recorder = true;
-    if (addition == "ros2") options.first.ros2_output = true;
-  }
-}
-
 /// Throws std::invalid_argument for an option that belongs to another source, which would be
 /// without effect.
 void check_options(const CLI::App& line, const InitOptions& options) {
@@ -119,7 +116,7 @@ int run(const CLI::App& line, InitOptions options) {
         options.source = options.first.recording.empty() ? "simulated" : "recording";
       }
       options.first.source = source_names.at(options.source);
-      apply_additions(options);
+      for (const std::string& name : options.additions) options.first.*additions.at(name) = true;
       check_options(line, options);
     }
     if (!options.first.recording.empty()) {
@@ -173,7 +170,7 @@ Command add_init(CLI::App& app) {
       ->delimiter(',');
   line->add_option("--add", options->additions, "What else: circles, map, page, recorder, ros2")
       ->delimiter(',')
-      ->check(CLI::IsMember({"circles", "map", "page", "recorder", "ros2"}));
+      ->check(CLI::IsMember(additions));
   line->add_option("--interface", options->first.interfaces,
                    "Interfaces of the robot's network; without one, this host alone")
       ->delimiter(',');

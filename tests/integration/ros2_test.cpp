@@ -29,6 +29,7 @@
 #include "services/topics/header.hpp"
 #include "services/topics/message_json.hpp"
 #include "tests/integration/harness/deployment.hpp"
+#include "tests/services/ros2/estimates.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 
 namespace quoin {
@@ -39,6 +40,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::UnorderedElementsAreArray;
 using tests::CornerRecorder;
+using tests::estimate;
 using tests::Process;
 using tests::Recorder;
 using tests::StatusRecorder;
@@ -187,6 +189,15 @@ struct Topic {
   std::string qos;
 };
 
+/// A stranger that reads them all.
+Process reader_of(const std::vector<Topic>& topics, const TestDeployment& deployment) {
+  std::vector<std::string> arguments{"read", domain_of(deployment)};
+  for (const Topic& topic : topics) {
+    arguments.insert(arguments.end(), {topic.name, topic.type, topic.qos});
+  }
+  return {"ros2_peer", arguments, deployment.directory().path()};
+}
+
 /// What the peer read of each topic, decoded by the definitions of a distribution.
 std::map<std::string, std::vector<json>> decoded(const std::string& printed,
                                                  const std::string& distro,
@@ -263,11 +274,7 @@ TEST_F(Ros2, EveryMessageIsReadByItsNameTypeAndQosAndDecodesToWhatTheServicesGav
   Recorder<msg::Scan> scans(participant, deployment, "front");
   Recorder<msg::Lines> lines(participant, deployment, "lines");
   Recorder<msg::Corners> corners(participant, deployment, "corners");
-  std::vector<std::string> arguments{"read", domain_of(deployment)};
-  for (const Topic& topic : topics) {
-    arguments.insert(arguments.end(), {topic.name, topic.type, topic.qos});
-  }
-  const Process peer("ros2_peer", arguments, deployment.directory().path());
+  const Process peer = reader_of(topics, deployment);
   const Up up(deployment);
   const auto enough = [&] {
     return std::ranges::all_of(topics, [&](const Topic& topic) {
@@ -394,20 +401,6 @@ void expect_estimate(const json& theirs, const msg::PoseEstimate& ours) {
   EXPECT_EQ(theirs.at("covariance").get<std::vector<double>>(), expected);
 }
 
-msg::PoseEstimate estimate(double x, double y, double theta) {
-  msg::PoseEstimate made;
-  made.x(x);
-  made.y(y);
-  made.theta(theta);
-  made.covariance_xx(0.01);
-  made.covariance_xy(0.002);
-  made.covariance_yy(0.03);
-  made.covariance_x_theta(0.004);
-  made.covariance_y_theta(-0.005);
-  made.covariance_theta(0.06);
-  return made;
-}
-
 msg::LineMap map_of(std::int64_t stamp, const std::vector<std::array<double, 4>>& walls) {
   msg::LineMap map;
   map.header().stamp(stamp);
@@ -451,11 +444,7 @@ TEST_F(Ros2, PosesOdometryTransformsAndMapsGoOutAndDecodeFieldByField) {
   runtime::Writer<msg::Odometry> wheels(participant, deployment.topic("wheels"), qos("wheels"));
   runtime::Writer<msg::Pose> where(participant, deployment.topic("where"), qos("where"));
   runtime::Writer<msg::LineMap> house(participant, deployment.topic("house"), qos("house"));
-  std::vector<std::string> arguments{"read", domain_of(deployment)};
-  for (const Topic& topic : topics) {
-    arguments.insert(arguments.end(), {topic.name, topic.type, topic.qos});
-  }
-  const Process peer("ros2_peer", arguments, deployment.directory().path());
+  const Process peer = reader_of(topics, deployment);
   const Up up(deployment);
   const auto matched = [&] {
     return std::ranges::all_of(topics, [&](const Topic& topic) {

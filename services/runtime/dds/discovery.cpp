@@ -21,6 +21,13 @@ namespace quoin::runtime {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = fast_dds::rtps;
 
+Guid guid_of(const rtps::GUID_t& guid) {
+  Guid bytes{};
+  std::copy_n(guid.guidPrefix.value, 12, bytes.begin());
+  std::copy_n(guid.entityId.value, 4, bytes.begin() + 12);
+  return bytes;
+}
+
 std::string foreign_name(std::string_view text) { return printable(text, Lines::one, 80); }
 
 namespace {
@@ -160,13 +167,6 @@ std::array<std::uint8_t, 12> prefix_of(const rtps::GUID_t& guid) {
   std::array<std::uint8_t, 12> prefix{};
   std::copy_n(guid.guidPrefix.value, prefix.size(), prefix.begin());
   return prefix;
-}
-
-std::array<std::uint8_t, 16> key_of(const rtps::GUID_t& guid) {
-  std::array<std::uint8_t, 16> key{};
-  std::copy_n(guid.guidPrefix.value, 12, key.begin());
-  std::copy_n(guid.entityId.value, 4, key.begin() + 12);
-  return key;
 }
 
 std::uint64_t incarnation_in(const std::vector<rtps::octet>& user_data) {
@@ -405,11 +405,11 @@ void KnownEndpoints::on_publisher_discovery(dds::DomainParticipant*,
                                             rtps::WriterDiscoveryInfo&& info) {
   const std::lock_guard lock(mutex_);
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
-    writers_.erase(key_of(info.info.guid()));
+    writers_.erase(guid_of(info.info.guid()));
   } else {
-    writers_[key_of(info.info.guid())] = {prefix_of(info.info.guid()),
-                                          info.info.topicName().to_string(), discovered(info.info),
-                                          incarnation_in(info.info.m_qos.m_userData.getValue())};
+    writers_[guid_of(info.info.guid())] = {prefix_of(info.info.guid()),
+                                           info.info.topicName().to_string(), discovered(info.info),
+                                           incarnation_in(info.info.m_qos.m_userData.getValue())};
   }
 }
 
@@ -417,10 +417,10 @@ void KnownEndpoints::on_subscriber_discovery(dds::DomainParticipant*,
                                              rtps::ReaderDiscoveryInfo&& info) {
   const std::lock_guard lock(mutex_);
   if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
-    readers_.erase(key_of(info.info.guid()));
+    readers_.erase(guid_of(info.info.guid()));
   } else {
-    readers_[key_of(info.info.guid())] = {prefix_of(info.info.guid()),
-                                          info.info.topicName().to_string(), discovered(info.info)};
+    readers_[guid_of(info.info.guid())] = {
+        prefix_of(info.info.guid()), info.info.topicName().to_string(), discovered(info.info)};
   }
 }
 #else
@@ -481,10 +481,10 @@ void KnownEndpoints::on_data_writer_discovery(dds::DomainParticipant*,
   should_be_ignored = false;
   const std::lock_guard lock(mutex_);
   if (status == rtps::WriterDiscoveryStatus::REMOVED_WRITER) {
-    writers_.erase(key_of(info.guid));
+    writers_.erase(guid_of(info.guid));
   } else {
-    writers_[key_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
-                                   discovered(info), incarnation_in(info.user_data.getValue())};
+    writers_[guid_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
+                                    discovered(info), incarnation_in(info.user_data.getValue())};
   }
 }
 
@@ -495,10 +495,10 @@ void KnownEndpoints::on_data_reader_discovery(dds::DomainParticipant*,
   should_be_ignored = false;
   const std::lock_guard lock(mutex_);
   if (status == rtps::ReaderDiscoveryStatus::REMOVED_READER) {
-    readers_.erase(key_of(info.guid));
+    readers_.erase(guid_of(info.guid));
   } else {
-    readers_[key_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
-                                   discovered(info)};
+    readers_[guid_of(info.guid)] = {prefix_of(info.guid), info.topic_name.to_string(),
+                                    discovered(info)};
   }
 }
 #endif

@@ -37,6 +37,8 @@ struct EndpointPolicies {
   std::int64_t deadline = 0;  // [ns]
 };
 
+[[nodiscard]] Guid guid_of(const fast_dds::rtps::GUID_t& guid);
+
 /// What another participant calls itself or its topics, fit for a log.
 [[nodiscard]] std::string foreign_name(std::string_view text);
 
@@ -55,7 +57,6 @@ struct EndpointPolicies {
 class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Prefix = std::array<std::uint8_t, 12>;  // of the participant
-  using Guid = std::array<std::uint8_t, 16>;
 
   /// `own_name`: of this participant, <namespace>/<label>.
   explicit KnownEndpoints(std::string own_name);

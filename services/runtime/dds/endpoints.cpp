@@ -63,10 +63,7 @@ void ReaderBase::Impl::refuse(const std::string& reason) {
 std::uint64_t ReaderBase::Impl::incarnation_of(std::uint64_t hash,
                                                const fast_dds::rtps::GUID_t& writer) {
   if (hash == last_writer) return last_incarnation;
-  KnownEndpoints::Guid guid{};
-  std::copy_n(writer.guidPrefix.value, 12, guid.begin());
-  std::copy_n(writer.entityId.value, 4, guid.begin() + 12);
-  const auto incarnation = participant.impl().endpoints->incarnation_of_writer(guid);
+  const auto incarnation = participant.impl().endpoints->incarnation_of_writer(guid_of(writer));
   if (!incarnation) return 0;
   last_writer = hash;
   last_incarnation = *incarnation;
@@ -180,7 +177,7 @@ WriterBase::Impl::~Impl() {
 
 void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
                                               const dds::PublicationMatchedStatus& status) {
-  KnownEndpoints::Guid reader{};
+  Guid reader{};
   std::copy_n(static_cast<const std::uint8_t*>(status.last_subscription_handle.value),
               reader.size(), reader.begin());
   {
@@ -197,7 +194,7 @@ void WriterBase::Impl::on_publication_matched(dds::DataWriter*,
 std::set<KnownEndpoints::Prefix> WriterBase::Impl::reading_participants() const {
   std::set<KnownEndpoints::Prefix> participants;
   const std::lock_guard lock(mutex);
-  for (const KnownEndpoints::Guid& reader : readers) {
+  for (const Guid& reader : readers) {
     KnownEndpoints::Prefix prefix{};
     std::copy_n(reader.begin(), prefix.size(), prefix.begin());
     participants.insert(prefix);

@@ -74,8 +74,6 @@ struct Participant::Impl {
                                        const topics::CdrCodec* codec);
 };
 
-[[nodiscard]] Guid guid_of(const fast_dds::rtps::GUID_t& guid);
-
 /// Number of peers of an endpoint, as its listener sees it.
 class MatchState {
  public:
@@ -214,8 +212,8 @@ struct WriterBase::Impl : eprosima::fastdds::dds::DataWriterListener {
   std::string topic_name;
   MatchState match;
   mutable std::mutex mutex;
-  std::set<KnownEndpoints::Guid> readers;  // matched
-  bool found_silent = false;               // by the last check
+  std::set<Guid> readers;     // matched
+  bool found_silent = false;  // by the last check
   eprosima::fastdds::dds::DataWriter* writer = nullptr;
 };
 

@@ -201,13 +201,6 @@ bool Participant::discovery_complete() const {
   return age >= complete_after_with_server && impl_->endpoints->knows_server();
 }
 
-Guid guid_of(const fast_dds::rtps::GUID_t& guid) {
-  Guid bytes{};
-  std::copy_n(guid.guidPrefix.value, 12, bytes.begin());
-  std::copy_n(guid.entityId.value, 4, bytes.begin() + 12);
-  return bytes;
-}
-
 dds::Topic* Participant::Impl::topic(const std::string& name, const std::string& type_name,
                                      const topics::CdrCodec* codec) {
   const bool keyed = codec != nullptr && codec->keyed;

@@ -12,26 +12,15 @@
 #include "core/geometry/angle.hpp"
 #include "services/ros2/diagnostics.hpp"
 #include "services/ros2/occupancy_grid.hpp"
+#include "tests/services/ros2/estimates.hpp"
 
 namespace quoin::ros2 {
 namespace {
 
+using tests::estimate;
+
 constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t now = 1'700'000'000 * second;
-
-msg::PoseEstimate estimate(double x, double y, double theta) {
-  msg::PoseEstimate made;
-  made.x(x);
-  made.y(y);
-  made.theta(theta);
-  made.covariance_xx(0.01);
-  made.covariance_xy(0.002);
-  made.covariance_yy(0.03);
-  made.covariance_x_theta(0.004);
-  made.covariance_y_theta(-0.005);
-  made.covariance_theta(0.06);
-  return made;
-}
 
 msg::Odometry odometry_at(std::int64_t stamp, double x, double theta = 0.0) {
   msg::Odometry made;
