@@ -6,13 +6,16 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/mapping/landmark_graph.hpp"
-#include "core/mapping/line_alignment.hpp"
+#include "core/mapping/landmarks/loop_closing.hpp"
+#include "core/mapping/landmarks/motion_fusion.hpp"
+#include "core/mapping/landmarks/relocalization.hpp"
+#include "core/mapping/landmarks/scan_judgement.hpp"
+#include "core/mapping/landmarks/wall_belief.hpp"
 #include "core/mapping/localizer.hpp"
 #include "core/mapping/point_map.hpp"
 #include "core/parameters/parameter.hpp"
@@ -51,7 +54,7 @@ class Landmarks {
   static constexpr const char* choose =
       "For a pose and a map that stay true over many laps, with odometry or with the LiDAR alone. "
       "It says where walls leave a direction open, and finds itself again in its map.";
-  static constexpr const char* state = "landmarks/3";
+  static constexpr const char* state = "landmarks/4";
 
   struct Parameters {
     double keyframe_distance = 0.4;  // [m]
@@ -95,110 +98,72 @@ class Landmarks {
   [[nodiscard]] std::vector<Pose2> keyframes() const;
 
   [[nodiscard]] const LandmarkGraph& graph() const { return graph_; }
-  [[nodiscard]] std::size_t closed_loops() const { return closed_loops_; }
+  [[nodiscard]] std::size_t closed_loops() const { return loops_.closed(); }
 
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
-    archive(self.graph_, self.clouds_, self.given_, self.active_, self.belief_, self.since_,
+    archive(self.graph_, self.clouds_, self.given_, self.belief_, self.since_,
             self.search_covariance_, self.well_matched_, self.base_keyframe_,
-            self.base_is_keyframe_, self.last_pose_, self.velocity_, self.stamp_, self.lost_since_,
-            self.unfit_scans_, self.found_scans_, self.back_scans_, self.last_share_,
-            self.has_odometry_, self.fits_, self.lost_, self.refreshed_at_,
-            self.refreshed_keyframe_, self.last_loop_keyframe_, self.closed_loops_,
-            self.pending_loops_, self.odometry_scale_, self.judged_motions_, self.registered_,
-            self.candidate_, self.near_);
+            self.base_is_keyframe_, self.last_pose_, self.velocity_, self.stamp_, self.last_share_,
+            self.has_odometry_, self.refreshed_at_, self.refreshed_keyframe_, self.loops_,
+            self.odometry_scale_, self.registered_, self.loss_, self.relocalization_, self.near_);
   }
 
  private:
-  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // measurement, place in active_
-  /// Pose and walls around with their joint covariance.
-  struct Belief {
-    Pose2 pose;
-    std::vector<Eigen::Vector2d> walls;  // (phi, offset) of active_
-    Eigen::MatrixXd covariance;
-
-    template <class Archive, class Self>
-    static void transfer(Archive& archive, Self& self) {
-      archive(self.pose, self.walls, self.covariance);
-    }
-  };
-
-  [[nodiscard]] LineLandmark wall(const Belief& belief, std::size_t place) const;
-  [[nodiscard]] Belief predict(const PoseEstimate& motion) const;
-  void collect_points(const LocalizationInput& input);
-  void rebuild_near();
-  [[nodiscard]] std::optional<Registration> register_scan(const Pose2& predicted,
-                                                          const PoseWindow& window);
-  void fuse(const Registration& registration);
-  void judge_odometry(const PoseEstimate& motion, const Registration& registration);
-  [[nodiscard]] Pairs associate(Belief belief, double widest_direction, double widest_offset) const;
-  [[nodiscard]] Pairs find_pairs(const Belief& prior, double& weakening) const;
-  [[nodiscard]] double length_of(const Pairs& pairs) const;
-  [[nodiscard]] double length_of_scan() const;
-  [[nodiscard]] Pairs associate_by_alignment(const Belief& belief, double& weakening) const;
-  bool update(const Belief& prior, Pairs& pairs, Belief& posterior) const;
-  void judge(const Belief& posterior, const Pairs& pairs, Localization& result);
-  [[nodiscard]] std::size_t nearest_keyframe(const Pose2& pose) const;
+  void take_scan(const LocalizationInput& input);
+  void begin(Localization& result);
+  void localize(const LocalizationInput& input, Localization& result);
+  void add_motion(const std::optional<PoseEstimate>& motion, double seconds);
+  [[nodiscard]] PoseWindow window_of(const std::optional<PoseEstimate>& motion, double seconds,
+                                     bool found_again) const;
+  bool find_again(const LocalizationInput& input);
+  void register_points(const std::optional<PoseEstimate>& motion, const PoseWindow& window);
+  [[nodiscard]] bool is_next_keyframe(const WallBelief& posterior, double matched,
+                                      double total) const;
   [[nodiscard]] bool is_known(const Pose2& pose, double matched, double total) const;
-  void go_on(const Belief& posterior);
-  void add_keyframe(const Belief& posterior, const Pairs& pairs);
+  void go_on(const WallBelief& posterior);
+  void add_keyframe(const WallBelief& posterior, const WallPairs& pairs);
+  void add_new_walls(std::size_t keyframe, const WallPairs& known);
   void refresh();
-  void merge_same_walls();
-  bool close_loop();
-  void check_loops();
-  [[nodiscard]] std::vector<SurfacePoint> points_around(std::size_t keyframe, std::size_t first,
-                                                        std::size_t last) const;
-  void build_whole();
-  [[nodiscard]] std::optional<Registration> find_in_whole();
-  [[nodiscard]] double contradicted_length(const Registration& registration) const;
-  [[nodiscard]] bool lies_at(const Registration& registration) const;
-  bool relocalize(const LocalizationInput& input);
-  [[nodiscard]] double seen_through(const Pose2& pose, std::span<const std::size_t> walls) const;
+  void rebuild_near();
+  void report(const LocalizationInput& input, Localization& result) const;
 
   Parameters parameters_;
+
+  // The map.
   LandmarkGraph graph_;
-  std::vector<std::size_t> active_;                              // landmarks of the filter
-  Belief belief_;                                                // at the last keyframe
+  KeyframePoints clouds_;
+  std::vector<Eigen::Matrix2d> given_;  // covariances of the landmarks of a map that stays as it is
+  LoopClosing loops_;
+
+  // The filter.
+  WallBelief belief_;                                            // at the last keyframe
   PoseEstimate since_;                                           // motion since the last keyframe
   Eigen::Matrix3d search_covariance_ = Eigen::Matrix3d::Zero();  // of it, to find lines by
+  OdometryScale odometry_scale_;
   bool well_matched_ = true;
   std::size_t base_keyframe_ = 0;  // that belief_ comes from
   bool base_is_keyframe_ = true;   // and whether it is still of its pose
-  Pose2 scan_pose_;                // by the points alone
-  Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Identity();
-  double last_share_ = 0.0;  // the same of the last scan that fitted
-  double share_ = 0.0;       // of the points of the scan that lie on the map around
-  Pose2 last_pose_;          // of the last scan
-  Pose2 expected_step_;      // since then, before anything was seen
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  std::optional<double> stamp_;
-  double lost_since_ = 0.0;  // [s] stamp of the first scan that did not fit
-  int unfit_scans_ = 0;
-  int found_scans_ = 0;  // in a row that lie at candidate_
-  int back_scans_ = 0;   // in a row that fit where a lost robot should be
-  bool has_odometry_ = false;
-  bool fits_ = true;
-  bool lost_ = false;
   Pose2 refreshed_at_;
   std::size_t refreshed_keyframe_ = 0;
-  std::size_t last_loop_keyframe_ = 0;
-  std::size_t closed_loops_ = 0;
-  std::vector<LandmarkGraph::Edge> pending_loops_;
-  /// By how much the squared errors of odometry are larger than its covariances say: of the
-  /// translation and of the heading.
-  Eigen::Vector2d odometry_scale_ = Eigen::Vector2d::Ones();
-  std::size_t judged_motions_ = 0;
-  std::optional<Pose2> registered_;  // the last scan
-  std::optional<Pose2> candidate_;   // a pose found again, until the next scans confirm it
-  double next_search_ = 0.0;         // [s] stamp from which the whole map is searched again
-  PointMap whole_;                   // empty unless the robot is lost
-  PoseWindow whole_window_;
+  PointMap near_;  // points around, that scans are registered to
+
+  // The last scan.
+  std::optional<double> stamp_;
+  Pose2 last_pose_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  std::optional<Pose2> registered_;  // its pose, if its points lay on those around
+  double last_share_ = 0.0;          // of the points of the last one that fitted
+  bool has_odometry_ = false;
+  LossMonitor loss_;
+  Relocalization relocalization_;
+
+  // This scan.
   std::vector<LineMeasurement> measurements_;
-  PoseEstimate motion_;                            // since_ with what the points say
-  std::vector<std::vector<SurfacePoint>> clouds_;  // of the keyframes
   std::vector<SurfacePoint> scan_;
-  PointMap near_;
-  std::vector<Eigen::Matrix2d> given_;  // covariances of the landmarks of a map that stays as it is
+  PoseEstimate motion_;     // since_ with what the points say
+  PoseEstimate by_points_;  // the pose by the points alone
+  double share_ = 0.0;      // of the points that lie on those around; 0 when not registered
 };
 
 }  // namespace quoin

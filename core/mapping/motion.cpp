@@ -83,6 +83,18 @@ Eigen::Matrix3d compose_by_second(const Pose2& first) {
   return jacobian;
 }
 
+Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change) {
+  return {pose.x + change.x(), pose.y + change.y(), normalized_angle(pose.theta + change.z())};
+}
+
+Eigen::Matrix3d covariance_in_frame(const Pose2& frame, const Eigen::Matrix3d& covariance) {
+  const double c = std::cos(frame.theta);
+  const double s = std::sin(frame.theta);
+  Eigen::Matrix3d turn;
+  turn << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+  return turn * covariance * turn.transpose();
+}
+
 PoseEstimate compose(const PoseEstimate& first, const PoseEstimate& increment) {
   const Eigen::Matrix3d by_first = compose_by_first(first.pose, increment.pose);
   const Eigen::Matrix3d by_second = compose_by_second(first.pose);

@@ -34,6 +34,14 @@ struct PoseEstimate {
 [[nodiscard]] Eigen::Matrix3d compose_by_first(const Pose2& first, const Pose2& second);
 [[nodiscard]] Eigen::Matrix3d compose_by_second(const Pose2& first);
 
+/// The pose with this added to its components.
+[[nodiscard]] Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change);
+
+/// A covariance of (x, y, theta) in the frame of a pose, of one in the frame that the pose is given
+/// in.
+[[nodiscard]] Eigen::Matrix3d covariance_in_frame(const Pose2& frame,
+                                                  const Eigen::Matrix3d& covariance);
+
 /// The pose after an increment whose error is independent of that of `first`, to first order.
 [[nodiscard]] PoseEstimate compose(const PoseEstimate& first, const PoseEstimate& increment);
 

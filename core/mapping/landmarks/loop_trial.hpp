@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Quoin authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/mapping/landmark_graph.hpp"
+
+namespace quoin {
+
+inline constexpr double loop_gate = 30.0;  ///< chi square of 3 of what closes a loop
+
+/// A trial of a loop on a copy of the graph, one Gauss-Newton step at a time: first the graph as it
+/// is, then with the loop however far it bends the map, then with the loop weighted like the rest.
+class LoopTrial {
+ public:
+  enum class Verdict { open, holds, refuted };
+
+  LoopTrial() = default;
+  /// `edge` closes the loop; `agreeing` are edges of other keyframes that say the same.
+  LoopTrial(const LandmarkGraph& graph, std::span<const LandmarkGraph::Edge> agreeing,
+            const LandmarkGraph::Edge& edge);
+
+  /// Takes one step; not to be called when the verdict is not open.
+  Verdict step();
+  /// The graph with the loop; of a trial that holds.
+  [[nodiscard]] LandmarkGraph& graph() { return graph_; }
+
+ private:
+  [[nodiscard]] Verdict judge() const;
+
+  LandmarkGraph graph_;
+  std::vector<LandmarkGraph::Edge> loop_;
+  std::size_t first_loop_ = 0;  // edge of graph_
+  int steps_ = 0;
+  double cost_before_ = 0.0;
+  double cost_after_ = 0.0;
+};
+
+}  // namespace quoin
