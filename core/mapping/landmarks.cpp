@@ -9,9 +9,9 @@
 #include <Eigen/LU>
 
 #include "core/geometry/angle.hpp"
-#include "core/mapping/landmarks/nearby_points.hpp"
-#include "core/mapping/landmarks/wall_matching.hpp"
-#include "core/mapping/landmarks/wall_selection.hpp"
+#include "core/mapping/nearby_points.hpp"
+#include "core/mapping/wall_matching.hpp"
+#include "core/mapping/wall_selection.hpp"
 
 namespace quoin {
 namespace {

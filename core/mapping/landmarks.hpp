@@ -11,13 +11,13 @@
 #include <Eigen/Core>
 
 #include "core/mapping/landmark_graph.hpp"
-#include "core/mapping/landmarks/loop_closing.hpp"
-#include "core/mapping/landmarks/motion_fusion.hpp"
-#include "core/mapping/landmarks/relocalization.hpp"
-#include "core/mapping/landmarks/scan_judgement.hpp"
-#include "core/mapping/landmarks/wall_belief.hpp"
 #include "core/mapping/localizer.hpp"
+#include "core/mapping/loop_closing.hpp"
+#include "core/mapping/motion_fusion.hpp"
 #include "core/mapping/point_map.hpp"
+#include "core/mapping/relocalization.hpp"
+#include "core/mapping/scan_judgement.hpp"
+#include "core/mapping/wall_belief.hpp"
 #include "core/parameters/parameter.hpp"
 
 namespace quoin {

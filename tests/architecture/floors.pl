@@ -50,10 +50,10 @@ my @floors = (
     [ 'deploy/command/',                 16 ],
 );
 # How many files the main file of a service may reach.
-# Recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
+# Landmarks are some twenty files by themselves; recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 139,
-    'services/mapping/main.cpp'      => 139,
+    'services/localization/main.cpp' => 166,
+    'services/mapping/main.cpp'      => 166,
     'services/recorder/main.cpp'     => 127,
     'services/ros2_output/main.cpp'  => 126,
     'services/segmentation/main.cpp' => 145,

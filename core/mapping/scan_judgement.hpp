@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "core/mapping/landmarks/wall_belief.hpp"
 #include "core/mapping/localizer.hpp"
+#include "core/mapping/wall_belief.hpp"
 
 namespace quoin {
 

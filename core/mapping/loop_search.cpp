@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/loop_search.hpp"
+#include "core/mapping/loop_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/scan_judgement.hpp"
+#include "core/mapping/scan_judgement.hpp"
 
 #include <array>
 

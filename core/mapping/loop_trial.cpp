@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/loop_trial.hpp"
+#include "core/mapping/loop_trial.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/wall_belief.hpp"
+#include "core/mapping/wall_belief.hpp"
 
 #include <array>
 

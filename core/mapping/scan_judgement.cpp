@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/scan_judgement.hpp"
+#include "core/mapping/scan_judgement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/geometry/angle.hpp"
-#include "core/mapping/landmarks/wall_matching.hpp"
+#include "core/mapping/wall_matching.hpp"
 
 namespace quoin {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/wall_belief.hpp"
+#include "core/mapping/wall_belief.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/geometry/angle.hpp"
-#include "core/mapping/landmarks/gates.hpp"
+#include "core/mapping/line_gates.hpp"
 
 namespace quoin {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/relocalization.hpp"
+#include "core/mapping/relocalization.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/geometry/angle.hpp"
-#include "core/mapping/landmarks/nearby_points.hpp"
-#include "core/mapping/landmarks/scan_judgement.hpp"
+#include "core/mapping/nearby_points.hpp"
+#include "core/mapping/scan_judgement.hpp"
 
 namespace quoin {
 namespace {

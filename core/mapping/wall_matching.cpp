@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/wall_matching.hpp"
+#include "core/mapping/wall_matching.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <Eigen/LU>
 
 #include "core/geometry/angle.hpp"
-#include "core/mapping/landmarks/gates.hpp"
 #include "core/mapping/line_alignment.hpp"
+#include "core/mapping/line_gates.hpp"
 
 namespace quoin {
 namespace {

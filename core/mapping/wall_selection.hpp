@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/mapping/landmark_graph.hpp"
-#include "core/mapping/landmarks/wall_belief.hpp"
 #include "core/mapping/line_map.hpp"
+#include "core/mapping/wall_belief.hpp"
 
 namespace quoin {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/nearby_points.hpp"
+#include "core/mapping/nearby_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "core/mapping/landmarks/scan_judgement.hpp"
+#include "core/mapping/scan_judgement.hpp"
 
 namespace quoin {
 

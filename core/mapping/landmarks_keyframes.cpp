@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 
 #include "core/mapping/landmarks.hpp"
-#include "core/mapping/landmarks/gates.hpp"
-#include "core/mapping/landmarks/nearby_points.hpp"
-#include "core/mapping/landmarks/wall_selection.hpp"
+#include "core/mapping/line_gates.hpp"
+#include "core/mapping/nearby_points.hpp"
+#include "core/mapping/wall_selection.hpp"
 
 // How Landmarks go on from one keyframe to the next.
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "core/mapping/landmarks/wall_belief.hpp"
+#include "core/mapping/wall_belief.hpp"
 
 namespace quoin {
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/loop_closing.hpp"
+#include "core/mapping/loop_closing.hpp"
 
 #include <optional>
 #include <utility>
 
-#include "core/mapping/landmarks/loop_trial.hpp"
+#include "core/mapping/loop_trial.hpp"
 
 namespace quoin {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/mapping/landmarks/loop_search.hpp"
+#include "core/mapping/loop_search.hpp"
 
 namespace quoin {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/mapping/landmarks/motion_fusion.hpp"
+#include "core/mapping/motion_fusion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "core/mapping/landmarks/loop_search.hpp"
+#include "core/mapping/loop_search.hpp"
 
 namespace quoin {
 
