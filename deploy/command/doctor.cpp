@@ -62,6 +62,7 @@ Checks check_disks(const DoctorOptions& options) {
 struct Heard {
   std::vector<HeardProcess> processes;  ///< that live at the end of the listening
   std::vector<std::string> foreign_writers;
+  std::vector<std::string> unreadable;  ///< HeartbeatListener::unreadable
 };
 
 Heard listen(const Deployment& deployment, bool all_namespaces, double wait) {
@@ -83,16 +84,17 @@ Heard listen(const Deployment& deployment, bool all_namespaces, double wait) {
                                 input_complaints(status), line_scatter_of(status)});
   }
   result.foreign_writers = foreign_writers(living);
+  result.unreadable = listener.unreadable();
   return result;
 }
 
 Checks check_services(const Deployment& deployment, bool all_namespaces, double wait) {
   try {
-    const auto [processes, strangers] = listen(deployment, all_namespaces, wait);
+    const auto [processes, strangers, unreadable] = listen(deployment, all_namespaces, wait);
     Checks checks = check_clocks(processes, runtime::host_name());
     append(checks, check_doubles(processes));
     append(checks, check_strangers(processes, strangers));
-    append(checks, check_qos(processes));
+    append(checks, check_qos(processes, unreadable));
     append(checks, check_line_scatter(processes));
     if (processes.empty()) checks.push_back({"deployments", Verdict::good, "no service runs", ""});
     return checks;

@@ -44,9 +44,14 @@ Row row_of(const std::string& name_space, const msg::ServiceStatus& status) {
   return row;
 }
 
+struct Heard {
+  std::vector<Row> rows;
+  std::vector<std::string> unreadable;  ///< HeartbeatListener::unreadable
+};
+
 /// The services of the deployment, then those of others; of all namespaces when there is no
 /// deployment and `one_namespace` is false.
-std::vector<Row> collect(const Deployment& deployment, bool one_namespace, double wait) {
+Heard collect(const Deployment& deployment, bool one_namespace, double wait) {
   HeartbeatListener listener(deployment, "quoin_status", !one_namespace);
   listener.listen(wait, [&] {
     const auto newest = listener.newest();
@@ -77,7 +82,7 @@ std::vector<Row> collect(const Deployment& deployment, bool one_namespace, doubl
     }
     row.figures.name = row.name_space + "/" + row.figures.name;
   }
-  return rows;
+  return {std::move(rows), listener.unreadable()};
 }
 
 std::vector<std::string> foreign_writers_of(const std::vector<Row>& rows) {
@@ -88,10 +93,19 @@ std::vector<std::string> foreign_writers_of(const std::vector<Row>& rows) {
   return foreign_writers(statuses);
 }
 
+std::vector<std::string> version_lines_of(const std::vector<Row>& rows) {
+  std::vector<std::pair<std::string, const msg::ServiceStatus*>> services;
+  for (const Row& row : rows) {
+    if (row.status) services.emplace_back(row.figures.name, &*row.status);
+  }
+  return version_lines(services);
+}
+
 void print(const std::vector<Row>& rows) {
   std::vector<ServiceFigures> services;
   for (const Row& row : rows) services.push_back(row.figures);
   for (const std::string& text : status_lines(services)) std::cout << text << '\n';
+  for (const std::string& text : version_lines_of(rows)) std::cout << text << '\n';
   for (const std::string& text : foreign_writers_of(rows)) std::cout << text << '\n';
   for (const Row& row : rows) {
     if (!row.status) continue;
@@ -158,7 +172,8 @@ nlohmann::ordered_json outputs_of(const msg::ServiceStatus& status,
   return outputs;
 }
 
-void print_json(const std::vector<Row>& rows) {
+void print_json(const Heard& heard) {
+  const std::vector<Row>& rows = heard.rows;
   nlohmann::ordered_json services = nlohmann::ordered_json::object();
   for (const Row& row : rows) {
     auto object = service_summary(row.figures);
@@ -169,6 +184,8 @@ void print_json(const std::vector<Row>& rows) {
       object["detail"] = status.detail();
       object["rate_hz"] = status.rate();
       object["host"] = status.host();
+      object["version"] = status.version();
+      object["dds"] = status.dds();
       object["pid"] = status.pid();
       object["incarnation"] = status.incarnation();
       object["stamp"] = status.stamp();
@@ -199,17 +216,22 @@ void print_json(const std::vector<Row>& rows) {
     services[row.figures.name] = object;
   }
   const nlohmann::ordered_json object{{"services", services},
-                                      {"foreign_writers", foreign_writers_of(rows)}};
+                                      {"foreign_writers", foreign_writers_of(rows)},
+                                      {"unreadable", heard.unreadable}};
   std::cout << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }
 
 int run(const StatusOptions& options, bool one_namespace) {
   const Deployment deployment = deployment_to_reach(options.network, options.file);
-  const std::vector<Row> rows = collect(deployment, one_namespace, options.wait);
+  const Heard all = collect(deployment, one_namespace, options.wait);
+  const std::vector<Row>& rows = all.rows;
   if (options.json) {
-    print_json(rows);
-  } else if (!rows.empty()) {
-    print(rows);
+    print_json(all);
+  } else {
+    if (!rows.empty()) print(rows);
+    for (const std::string& text : all.unreadable) {
+      std::cout << "heartbeats are not read: " << printable(text) << '\n';
+    }
   }
   bool healthy = true;
   bool heard = false;

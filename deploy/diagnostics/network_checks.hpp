@@ -45,8 +45,10 @@ struct HeardProcess {
 [[nodiscard]] Checks check_strangers(const std::vector<HeardProcess>& processes,
                                      const std::vector<std::string>& foreign_writers);
 
-/// What readers and writers of the services do not agree on.
-[[nodiscard]] Checks check_qos(const std::vector<HeardProcess>& processes);
+/// What readers and writers of the services do not agree on: what those report, and what keeps
+/// their heartbeats from being read.
+[[nodiscard]] Checks check_qos(const std::vector<HeardProcess>& processes,
+                               const std::vector<std::string>& of_heartbeats);
 
 /// Whether the lines of the last minute scatter as the sensor model says, which their covariances
 /// rest on.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/text/printable.hpp"
 #include "services/keys/key_files.hpp"
 #include "services/runtime/node/clock.hpp"
 #include "services/runtime/process/heartbeat.hpp"
@@ -66,6 +67,19 @@ std::vector<std::string> input_complaints(const msg::ServiceStatus& status) {
     }
   }
   return complaints;
+}
+
+std::vector<std::string> version_lines(
+    const std::vector<std::pair<std::string, const msg::ServiceStatus*>>& services) {
+  std::map<std::string, std::string> names;  // by version
+  for (const auto& [name, status] : services) {
+    std::string& list =
+        names["Quoin " + printable(status->version()) + " with " + printable(status->dds())];
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  std::vector<std::string> lines;
+  for (const auto& [version, list] : names) lines.push_back(version + ": " + list);
+  return lines;
 }
 
 namespace {
@@ -163,6 +177,14 @@ void HeartbeatListener::listen(double seconds, const std::function<bool()>& comp
     wait_set_.wait(std::clamp(left, milliseconds(0), milliseconds(100)));
     for (auto& [name_space, reader] : readers_) take(name_space, *reader);
   }
+}
+
+std::vector<std::string> HeartbeatListener::unreadable() const {
+  std::vector<std::string> texts;
+  for (const auto& [name_space, reader] : readers_) {
+    for (std::string& text : reader->incompatible_qos()) texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 std::map<std::pair<std::string, std::string>, HeardHeartbeats> HeartbeatListener::newest() const {

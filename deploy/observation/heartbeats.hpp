@@ -32,6 +32,11 @@ namespace quoin::deploy {
 /// repeated or refused.
 [[nodiscard]] std::vector<std::string> input_complaints(const msg::ServiceStatus& status);
 
+/// Which services are of which version of Quoin and of its DDS, a line for each:
+/// "Quoin 0.1.0 with Fast DDS 3.1.2: front, walls". `services` are names with heartbeats.
+[[nodiscard]] std::vector<std::string> version_lines(
+    const std::vector<std::pair<std::string, const msg::ServiceStatus*>>& services);
+
 /// Topics with more writers than services that report to write them, of all that report.
 [[nodiscard]] std::vector<std::string> foreign_writers(
     const std::vector<const msg::ServiceStatus*>& statuses);
@@ -58,6 +63,9 @@ class HeartbeatListener {
   /// By namespace and incarnation.
   using Heard = std::map<std::pair<std::string, std::uint64_t>, HeardHeartbeats>;
   [[nodiscard]] const Heard& heard() const { return heard_; }
+  /// Processes whose heartbeats are not read, because theirs have other fields or another QoS: a
+  /// line each, with both sides' values.
+  [[nodiscard]] std::vector<std::string> unreadable() const;
   /// The newest process of each service, by namespace and label.
   [[nodiscard]] std::map<std::pair<std::string, std::string>, HeardHeartbeats> newest() const;
 

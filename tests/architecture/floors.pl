@@ -52,14 +52,14 @@ my @floors = (
 # How many files the main file of a service may reach.
 # Landmarks are some twenty files by themselves; recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 166,
-    'services/mapping/main.cpp'      => 166,
-    'services/recorder/main.cpp'     => 127,
-    'services/ros2_output/main.cpp'  => 126,
-    'services/segmentation/main.cpp' => 145,
-    'services/viewer/main.cpp'       => 196,
+    'services/localization/main.cpp' => 168,
+    'services/mapping/main.cpp'      => 168,
+    'services/recorder/main.cpp'     => 129,
+    'services/ros2_output/main.cpp'  => 128,
+    'services/segmentation/main.cpp' => 147,
+    'services/viewer/main.cpp'       => 198,
 );
-my $most_files_of_others = 121;
+my $most_files_of_others = 123;
 
 sub floor_of {
     my ($file) = @_;

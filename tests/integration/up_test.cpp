@@ -258,11 +258,29 @@ TEST(Status, TellsWhatRunsAndWhoDoesNotFitToWhom) {
   EXPECT_EQ(walls["incompatible_qos"], json::array({mismatch}));
   EXPECT_EQ(walls["state"], "active");
   EXPECT_EQ(walls["method"], "iepf");
+  EXPECT_EQ(walls["dds"], runtime::dds_version());
   EXPECT_GE(walls["age_s"], 0.0);
   EXPECT_LT(walls["age_s"], 30.0);
   Process table = deployment.quoin({"status", "FILE"});
   ASSERT_EQ(table.wait(20s), 0) << table.errors();
   EXPECT_THAT(table.output(), HasSubstr("walls: incompatible QoS: " + mismatch));
+  EXPECT_THAT(table.output(),
+              HasSubstr("Quoin " + walls["version"].get<std::string>() + " with " +
+                        std::string(runtime::dds_version()) + ": front, walls, wctls, corners\n"));
+
+  // One whose heartbeats have other fields.
+  runtime::TopicQos other = runtime::QosPreset::state;
+  other.user_data = "quoin type 0badf00d;";
+  const runtime::Writer<msg::ServiceStatus> newer(
+      participant, status_topic(deployment.deployment().name_space), other);
+  const std::string named = "visitor offers quoin::msg::ServiceStatus with the fields 0badf00d";
+  ASSERT_TRUE(tests::eventually([&] {
+    Process again = deployment.quoin({"status", "FILE"});
+    EXPECT_EQ(again.wait(20s), 0) << again.errors();
+    return again.output().find(named) != std::string::npos;
+  }));
+  EXPECT_THAT(findings(deployment, "QoS"),
+              testing::Contains(testing::Pair("QoS", HasSubstr(named))));
 
   const auto found = findings(deployment, "QoS");
   EXPECT_THAT(found, testing::Contains(testing::Pair("QoS", HasSubstr(mismatch))));

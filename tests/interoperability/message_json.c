@@ -290,6 +290,8 @@ void write_status(JsonWriter* writer, const char* name, const quoin_msg_ServiceS
   json_string(writer, "kind", status->kind);
   json_string(writer, "method", status->method);
   json_string(writer, "host", status->host);
+  json_string(writer, "version", status->version);
+  json_string(writer, "dds", status->dds);
   json_unsigned(writer, "pid", status->pid);
   json_unsigned(writer, "state", status->state);
   json_unsigned(writer, "received", status->received);

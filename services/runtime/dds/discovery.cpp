@@ -15,6 +15,7 @@
 
 #include "core/text/printable.hpp"
 #include "services/runtime/dds/process_writers.hpp"
+#include "services/topics/type_digest.hpp"
 
 namespace quoin::runtime {
 
@@ -41,6 +42,10 @@ constexpr std::size_t most_misfits = 32;
 // wait for nobody.
 constexpr std::string_view announcement_begin = "quoin observes:";
 constexpr std::size_t most_announced = 128;
+
+// What user data of an endpoint has in front of the digest of its type.
+constexpr std::string_view type_begin = "quoin type ";
+constexpr std::size_t digest_size = 8;
 
 // How many leases a reader may be silent that a living discovery server knows. The server itself
 // drops it after one.
@@ -89,6 +94,11 @@ std::string time_text(std::int64_t nanoseconds) {
   return std::to_string(nanoseconds / 1'000'000) + " ms";
 }
 
+template <class Bytes>
+std::string digest_in(const Bytes& user_data) {
+  return announced_digest({reinterpret_cast<const char*>(user_data.data()), user_data.size()});
+}
+
 // The policies of discovery data have other names than those of the DDS classes.
 #ifdef QUOIN_FAST_DDS_2
 template <class Data>
@@ -100,7 +110,8 @@ EndpointPolicies discovered(const Data& data) {
           static_cast<int>(qos.m_ownership.kind),
           qos.m_liveliness.kind,
           qos.m_liveliness.lease_duration.to_ns(),
-          qos.m_deadline.period.to_ns()};
+          qos.m_deadline.period.to_ns(),
+          digest_in(qos.m_userData.getValue())};
 }
 #else
 template <class Data>
@@ -111,7 +122,8 @@ EndpointPolicies discovered(const Data& data) {
           static_cast<int>(data.ownership.kind),
           data.liveliness.kind,
           data.liveliness.lease_duration.to_ns(),
-          data.deadline.period.to_ns()};
+          data.deadline.period.to_ns(),
+          digest_in(data.user_data.getValue())};
 }
 #endif
 
@@ -123,17 +135,25 @@ EndpointPolicies own(const Qos& qos, const std::string& type) {
           static_cast<int>(qos.ownership().kind),
           qos.liveliness().kind,
           qos.liveliness().lease_duration.to_ns(),
-          qos.deadline().period.to_ns()};
+          qos.deadline().period.to_ns(),
+          digest_in(qos.user_data().getValue())};
 }
 
 struct Mismatch {
   std::string policy, offered, requested;
 };
 
+std::string fields_text(const EndpointPolicies& policies) {
+  return policies.type + " with the fields " + policies.digest;
+}
+
 std::vector<Mismatch> mismatches(const EndpointPolicies& offered,
                                  const EndpointPolicies& requested) {
   std::vector<Mismatch> found;
   if (offered.type != requested.type) return {{"type", offered.type, requested.type}};
+  if (differ(offered.digest, requested.digest)) {
+    return {{"type", fields_text(offered), fields_text(requested)}};
+  }
   const auto check = [&](bool fits, const char* policy, std::string offers, std::string requests) {
     if (!fits) found.push_back({policy, std::move(offers), std::move(requests)});
   };
@@ -187,6 +207,25 @@ bool is_server(const rtps::GuidPrefix_t& prefix) {
 #endif
 
 }  // namespace
+
+std::string type_announcement(std::string_view dds_type) {
+  const std::string_view digest = topics::type_digest(dds_type);
+  return digest.empty() ? "" : std::string(type_begin).append(digest).append(";");
+}
+
+std::string announced_digest(std::string_view user_data) {
+  const std::size_t begin = user_data.find(type_begin);
+  if (begin == std::string_view::npos) return "";
+  const std::string_view rest = user_data.substr(begin + type_begin.size());
+  const std::string_view digest = rest.substr(0, digest_size);
+  const bool whole = rest.size() > digest_size && rest[digest_size] == ';' &&
+                     digest.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return whole ? std::string(digest) : "";
+}
+
+bool differ(std::string_view digest, std::string_view other) {
+  return !digest.empty() && !other.empty() && digest != other;
+}
 
 std::vector<std::uint8_t> participant_announcement(const std::string& text,
                                                    const std::vector<std::string>& topics,
@@ -503,11 +542,12 @@ void KnownEndpoints::on_data_reader_discovery(dds::DomainParticipant*,
 }
 #endif
 
-std::optional<std::uint64_t> KnownEndpoints::incarnation_of_writer(const Guid& writer) const {
+std::optional<KnownEndpoints::Announced> KnownEndpoints::announced_by_writer(
+    const Guid& writer) const {
   const std::lock_guard lock(mutex_);
   const auto known = writers_.find(writer);
   if (known == writers_.end()) return std::nullopt;
-  return known->second.incarnation;
+  return Announced{known->second.incarnation, known->second.policies.digest};
 }
 
 }  // namespace quoin::runtime

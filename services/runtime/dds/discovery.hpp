@@ -35,7 +35,15 @@ struct EndpointPolicies {
   int liveliness = 0;
   std::int64_t lease = 0;     // [ns] of the liveliness
   std::int64_t deadline = 0;  // [ns]
+  std::string digest = {};    // of the fields of the type (topics::type_digest), where announced
 };
+
+/// What an endpoint of that type announces in its user data: "" for types that are not of idl/.
+[[nodiscard]] std::string type_announcement(std::string_view dds_type);
+/// The digest in anybody's user data; "" when there is none.
+[[nodiscard]] std::string announced_digest(std::string_view user_data);
+/// Whether both are known, and of different fields.
+[[nodiscard]] bool differ(std::string_view digest, std::string_view other);
 
 [[nodiscard]] Guid guid_of(const fast_dds::rtps::GUID_t& guid);
 
@@ -68,8 +76,13 @@ class KnownEndpoints : public eprosima::fastdds::dds::DomainParticipantListener 
   /// Which writers of `topic` do not fit a reader of this participant.
   [[nodiscard]] std::vector<std::string> mismatches_of_reader(
       const std::string& topic, const EndpointPolicies& requested) const;
-  /// What a writer announces: announced_incarnation; nothing when it has not been discovered.
-  [[nodiscard]] std::optional<std::uint64_t> incarnation_of_writer(const Guid& writer) const;
+  /// What a writer announces.
+  struct Announced {
+    std::uint64_t incarnation = 0;  // announced_incarnation
+    std::string digest = {};        // announced_digest
+  };
+  /// Nothing when it has not been discovered.
+  [[nodiscard]] std::optional<Announced> announced_by_writer(const Guid& writer) const;
   /// Topics that others write to.
   [[nodiscard]] std::vector<std::string> written_topics() const;
   /// The same with what they are written as; one with writers of several types by that of the

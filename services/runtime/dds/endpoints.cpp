@@ -19,13 +19,25 @@ namespace quoin::runtime {
 namespace dds = eprosima::fastdds::dds;
 using Duration_t = fast_dds::Duration;
 
+namespace {
+
+constexpr const char* other_fields = "type: of another version, with other fields";
+
+/// The same, with what is announced of the type behind what is announced already.
+TopicQos with_type(TopicQos qos, const std::string& type_name) {
+  qos.user_data += type_announcement(type_name);
+  return qos;
+}
+
+}  // namespace
+
 ReaderBase::Impl::Impl(Participant& owner, const std::string& topic, const std::string& type_name,
                        const topics::CdrCodec* codec, const TopicQos& qos)
     : participant(owner),
       topic_name(topic),
       check(codec != nullptr ? topics::message_check(type_name) : nullptr) {
   reader = owner.impl().subscriber->create_datareader(owner.impl().topic(topic, type_name, codec),
-                                                      reader_qos(qos), this,
+                                                      reader_qos(with_type(qos, type_name)), this,
                                                       dds::StatusMask::subscription_matched());
   if (reader == nullptr) throw std::runtime_error("cannot create DDS reader for '" + topic + "'");
   reader->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
@@ -60,14 +72,14 @@ void ReaderBase::Impl::refuse(const std::string& reason) {
   ++refused[reason];
 }
 
-std::uint64_t ReaderBase::Impl::incarnation_of(std::uint64_t hash,
-                                               const fast_dds::rtps::GUID_t& writer) {
-  if (hash == last_writer) return last_incarnation;
-  const auto incarnation = participant.impl().endpoints->incarnation_of_writer(guid_of(writer));
-  if (!incarnation) return 0;
-  last_writer = hash;
-  last_incarnation = *incarnation;
-  return last_incarnation;
+ReaderBase::Impl::Writer ReaderBase::Impl::announced_by(std::uint64_t hash,
+                                                        const fast_dds::rtps::GUID_t& writer) {
+  if (hash == last_writer.hash) return last_writer;
+  const auto announced = participant.impl().endpoints->announced_by_writer(guid_of(writer));
+  if (!announced) return {hash};
+  last_writer = {hash, announced->incarnation,
+                 differ(announced->digest, policies_of(*reader).digest)};
+  return last_writer;
 }
 
 bool ReaderBase::admit(const msg::Header& header) {
@@ -102,17 +114,18 @@ bool ReaderBase::take_sample(void* message, const topics::CdrCodec* codec) {
   CdrSample sample{message, codec, impl_->check};
   dds::SampleInfo info;
   while (fast_dds::succeeded(impl_->reader->take_next_sample(&sample, &info))) {
-    if (sample.refusal) {
-      impl_->refuse(*std::exchange(sample.refusal, std::nullopt));
-      continue;
-    }
-    if (!info.valid_data) continue;  // the end of an instance
+    const topics::Refusal refusal = std::exchange(sample.refusal, std::nullopt);
+    if (!refusal && !info.valid_data) continue;  // the end of an instance
     const auto& writer = info.sample_identity.writer_guid();
     std::uint64_t hash = 14695981039346656037U;  // FNV-1a
     for (const auto octet : writer.guidPrefix.value) hash = (hash ^ octet) * 1099511628211U;
     for (const auto octet : writer.entityId.value) hash = (hash ^ octet) * 1099511628211U;
-    last_sample_ = {hash, impl_->incarnation_of(hash, writer),
-                    info.sample_identity.sequence_number().to64long(),
+    const Impl::Writer announced = impl_->announced_by(hash, writer);
+    if (announced.other_fields || refusal) {
+      impl_->refuse(announced.other_fields ? other_fields : *refusal);
+      continue;
+    }
+    last_sample_ = {hash, announced.incarnation, info.sample_identity.sequence_number().to64long(),
                     info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()};
     return true;
   }
@@ -163,7 +176,7 @@ WriterBase::Impl::Impl(Participant& owner, const std::string& topic, const std::
     : participant(owner), topic_name(topic) {
   // The listener is given at creation: one that is set later misses the first match.
   writer = owner.impl().publisher->create_datawriter(owner.impl().topic(topic, type_name, codec),
-                                                     writer_qos(qos), this,
+                                                     writer_qos(with_type(qos, type_name)), this,
                                                      dds::StatusMask::publication_matched());
   if (writer == nullptr) throw std::runtime_error("cannot create DDS writer for '" + topic + "'");
   if (!qos.owner.empty()) owner.impl().owned.add({guid_of(writer->guid()), qos.owner, true});

@@ -180,17 +180,20 @@ struct ReaderBase::Impl : eprosima::fastdds::dds::DataReaderListener {
       const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
 
   void refuse(const std::string& reason);
-  /// That the writer announces; `hash` stands for it.
-  [[nodiscard]] std::uint64_t incarnation_of(std::uint64_t hash,
-                                             const fast_dds::rtps::GUID_t& writer);
+  /// What the writer announces; `hash` stands for it.
+  struct Writer {
+    std::uint64_t hash = 0;
+    std::uint64_t incarnation = 0;
+    bool other_fields = false;  // than this reader's type
+  };
+  [[nodiscard]] Writer announced_by(std::uint64_t hash, const fast_dds::rtps::GUID_t& writer);
 
   Participant& participant;
   std::string topic_name;
   const topics::MessageCheck* check;  // of typed messages; null where there is none
   MatchState match;
   ProcessWriters writers;
-  std::uint64_t last_writer = 0;  // whose incarnation is known
-  std::uint64_t last_incarnation = 0;
+  Writer last_writer;  // that is known
   std::mutex mutex;
   topics::RefusedCounts refused;
   eprosima::fastdds::dds::DataReader* reader = nullptr;

@@ -21,6 +21,7 @@
 #include <fastdds/rtps/resources/TimedEvent.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/config.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/utils/md5.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
@@ -34,6 +35,7 @@ using DiscoveryProtocol = rtps::DiscoveryProtocol_t;
 using UdpTransport = eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 
 inline constexpr auto xcdr1 = eprosima::fastcdr::Cdr::DDS_CDR;
+inline constexpr auto version = "Fast DDS " FASTRTPS_VERSION_STR;
 
 inline std::size_t size_of(const eprosima::fastcdr::Cdr& cdr) {
   return cdr.getSerializedDataLength();
@@ -63,6 +65,7 @@ auto& heartbeat_response_delay(Times& times) {
 
 #include <fastcdr/Cdr.h>
 #include <fastdds/LibrarySettings.hpp>
+#include <fastdds/config.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.hpp>
@@ -81,6 +84,7 @@ using DiscoveryProtocol = rtps::DiscoveryProtocol;
 using UdpTransport = rtps::UDPv4TransportDescriptor;
 
 inline constexpr auto xcdr1 = eprosima::fastcdr::CdrVersion::XCDRv1;
+inline constexpr auto version = "Fast DDS " FASTDDS_VERSION_STR;
 
 inline std::size_t size_of(const eprosima::fastcdr::Cdr& cdr) {
   return cdr.get_serialized_data_length();

@@ -158,6 +158,8 @@ Participant::~Participant() {
   dds::DomainParticipantFactory::get_instance()->delete_participant(impl_->participant);
 }
 
+std::string_view dds_version() { return fast_dds::version; }
+
 std::vector<std::string> Participant::written_topics() const {
   return impl_->endpoints->written_topics();
 }

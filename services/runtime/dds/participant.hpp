@@ -28,6 +28,9 @@ struct OwnedEndpoint {
   friend bool operator==(const OwnedEndpoint&, const OwnedEndpoint&) = default;
 };
 
+/// The DDS that this program was built with, such as "Fast DDS 3.1.2".
+[[nodiscard]] std::string_view dds_version();
+
 /// A topic that others write.
 struct WrittenTopic {
   std::string topic;

@@ -20,7 +20,7 @@ constexpr std::string_view announcement = "quoin process ";
 }  // namespace
 
 std::string writer_announcement(std::uint64_t incarnation) {
-  return std::string(announcement) + std::to_string(incarnation);
+  return std::string(announcement) + std::to_string(incarnation) + ";";
 }
 
 std::uint64_t announced_incarnation(std::string_view user_data) {
@@ -29,7 +29,7 @@ std::uint64_t announced_incarnation(std::string_view user_data) {
   std::uint64_t incarnation = 0;
   const auto* const end = user_data.data() + user_data.size();
   const auto [stop, error] = std::from_chars(user_data.data(), end, incarnation);
-  return error == std::errc() && stop == end ? incarnation : 0;
+  return error == std::errc() && stop != end && *stop == ';' ? incarnation : 0;
 }
 
 bool ProcessWriters::admit(const std::string& service, std::uint64_t incarnation,

@@ -11,6 +11,7 @@
 
 #include "core/text/printable.hpp"
 #include "services/runtime/dds/interfaces.hpp"
+#include "services/runtime/dds/participant.hpp"
 #include "services/runtime/node/clock.hpp"
 
 namespace quoin::runtime {
@@ -51,6 +52,8 @@ ServiceRecord::ServiceRecord(const ServiceConfig& config)
   status_.kind(config.kind);
   status_.method(config.method);
   status_.host(host_name());
+  status_.version(QUOIN_VERSION);
+  status_.dds(std::string(dds_version()));
   status_.pid(static_cast<std::uint32_t>(getpid()));
   status_.incarnation(incarnation_);
   status_.state(msg::ServiceState::STATE_STARTING);

@@ -238,8 +238,11 @@ TEST(DoctorNetwork, NoticesTwoDeploymentsOfOneName) {
 TEST(DoctorNetwork, TellsEachMismatchOnce) {
   HeardProcess writer = heard("r/walls", "a", 1, 1, 0);
   writer.incompatible_qos = {"r/walls/segments: durability: walls offers volatile, map requests x"};
-  EXPECT_THAT(check_qos({writer, writer, heard("r/front", "a", 2, 1, 0)}),
+  EXPECT_THAT(check_qos({writer, writer, heard("r/front", "a", 2, 1, 0)}, {}),
               ElementsAre(is(Verdict::bad, "walls offers volatile", "same QoS")));
+  EXPECT_THAT(
+      check_qos({}, {"r/status: type: walls offers T with the fields 1, doctor requests 2"}),
+      ElementsAre(is(Verdict::bad, "walls offers T", "same version of Quoin")));
 }
 
 TEST(DoctorNetwork, ComplainsOfLinesThatScatterMoreOrLessThanModelled) {

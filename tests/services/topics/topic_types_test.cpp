@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "services/topics/idl_parser.hpp"
+#include "services/topics/type_digest.hpp"
 
 namespace quoin::topics {
 namespace {
@@ -52,6 +53,38 @@ TEST(TopicTypes, AnIdlTextIsCompleteAndHasWhatItIncludesOnce) {
   ASSERT_NE(header, std::string_view::npos);
   EXPECT_EQ(scan.find("struct Header {", header + 1), std::string_view::npos);
   EXPECT_EQ(idl_text("Scam.idl"), "");
+}
+
+TEST(TypeDigest, StandsForTheFieldsAndTheirOrderAndNotForWhatTheyMayHold) {
+  const auto digest = [](const std::string& fields) {
+    return digest_of(
+        parse_idl("enum E { a, b };\nstruct Inner { long x; };\nstruct S { " + fields + "\n};"),
+        "S");
+  };
+  const std::string fields = "long a; sequence<double> b; Inner c; E d; float e[3];";
+  EXPECT_EQ(digest(fields).size(), 8U);
+  EXPECT_EQ(digest(fields), digest(fields));
+  EXPECT_EQ(digest("long a; //@range(0, 1)"), digest("long a; // of something"));
+  for (const char* other : {"long a; sequence<double> b; Inner c; E d; float e[3]; long f;",
+                            "long a; sequence<double> b; Inner c; E d;",
+                            "sequence<double> b; long a; Inner c; E d; float e[3];",
+                            "long A; sequence<double> b; Inner c; E d; float e[3];",
+                            "unsigned long a; sequence<double> b; Inner c; E d; float e[3];",
+                            "long a; sequence<double, 5> b; Inner c; E d; float e[3];",
+                            "long a; sequence<double> b; long c; E d; float e[3];",
+                            "long a; sequence<double> b; Inner c; E d; float e[4];"}) {
+    EXPECT_NE(digest(fields), digest(other)) << other;
+  }
+}
+
+TEST(TypeDigest, OfEachTopicTypeIsAnotherOneAndOfForeignTypesThereIsNone) {
+  std::set<std::string_view> digests{type_digest("quoin::msg::ServiceStatus")};
+  for (const TopicType& row : topic_types()) {
+    EXPECT_EQ(type_digest(row.dds_type), digest_of(parse_idl(idl_text(row.idl)), row.dds_type));
+    EXPECT_TRUE(digests.insert(type_digest(row.dds_type)).second) << row.name;
+  }
+  EXPECT_FALSE(digests.contains(""));
+  EXPECT_EQ(type_digest("sensor_msgs::msg::dds_::LaserScan_"), "");
 }
 
 }  // namespace

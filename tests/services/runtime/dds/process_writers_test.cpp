@@ -59,8 +59,9 @@ TEST_F(ProcessWritersTest, WhoAnnouncesItselfIsHeardAloneWhileItLives) {
 TEST_F(ProcessWritersTest, AnAnnouncementIsReadAsItWasWritten) {
   EXPECT_EQ(announced_incarnation(writer_announcement(1'700'000'000'000'000'000)),
             1'700'000'000'000'000'000U);
-  for (const char* other :
-       {"", "quoin process ", "quoin process x", "quoin process 1 ", "typehash=1"}) {
+  EXPECT_EQ(announced_incarnation(writer_announcement(5) + "quoin type 0123abcd;"), 5U);
+  for (const char* other : {"", "quoin process ", "quoin process x;", "quoin process 1 ;",
+                            "quoin process 1", "typehash=1"}) {
     EXPECT_EQ(announced_incarnation(other), 0U) << other;
   }
 }

@@ -19,6 +19,7 @@
 #include "services/runtime/dds/participant.hpp"
 #include "services/runtime/dds/qos.hpp"
 #include "services/topics/header.hpp"
+#include "services/topics/type_digest.hpp"
 #include "tests/services/runtime/dds_test_scope.hpp"
 #include "tests/services/runtime/heap.hpp"
 
@@ -187,6 +188,41 @@ TEST(Topics, AQosMismatchIsToldToBothSides) {
   EXPECT_THAT(writer.incompatible_qos(), testing::ElementsAre(text));
   EXPECT_THAT(reader.incompatible_qos(), testing::ElementsAre(text));
   EXPECT_EQ(writer.matched(), 0U);
+}
+
+TEST(Topics, ATypeWithOtherFieldsIsRefusedByName) {
+  Participant sender({test_domain(), "sender"});
+  Participant receiver({test_domain(), "receiver"});
+  const std::string topic = test_namespace() + "/front/scan";
+  TopicQos of_another_version = QosPreset::feature;
+  of_another_version.user_data = "quoin type 0badf00d;";
+  const auto write = [&](Writer<msg::Scan>& writer, std::uint64_t number) {
+    ASSERT_TRUE(writer.wait_for_readers(2, 10s));
+    ASSERT_TRUE(writer.write(scan_of(10, number)));
+    ASSERT_TRUE(writer.wait_for_acknowledgments(10s));
+  };
+  Reader<msg::Scan> reader(receiver, topic, QosPreset::feature);
+  RawReader raw(receiver, topic, "quoin::msg::Scan", QosPreset::feature);
+  Writer<msg::Scan> other(sender, topic, of_another_version);
+  write(other, 1);
+  msg::Scan got;
+  topics::RawMessage bytes;
+  while (reader.refused().empty()) ASSERT_FALSE(reader.take(got));
+  while (raw.refused().empty()) ASSERT_FALSE(raw.take(bytes));
+  EXPECT_THAT(reader.refused(), testing::ElementsAre(testing::Pair(
+                                    "type: of another version, with other fields", 1U)));
+  const auto names_both = testing::AllOf(
+      testing::StartsWith(topic +
+                          ": type: sender offers quoin::msg::Scan with the fields 0badf00d,"),
+      testing::HasSubstr("receiver requests quoin::msg::Scan with the fields " +
+                         std::string(topics::type_digest("quoin::msg::Scan"))));
+  EXPECT_THAT(reader.incompatible_qos(), testing::ElementsAre(names_both));
+  EXPECT_THAT(other.incompatible_qos(), testing::ElementsAre(names_both));
+  // One of the same version beside it is heard.
+  Writer<msg::Scan> same(sender, topic, QosPreset::feature);
+  write(same, 2);
+  ASSERT_TRUE(take_within(reader, got));
+  EXPECT_EQ(topics::sequence_number(got.header()), 2U);
 }
 
 TEST(Topics, AMisfitIsForgottenWithItsParticipant) {
