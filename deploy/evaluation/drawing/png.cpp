@@ -2,62 +2,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/evaluation/drawing/png.hpp"
 
-#include <cmath>
-#include <librsvg/rsvg.h>
-#include <memory>
+#include <array>
+#include <cerrno>
+#include <spawn.h>
 #include <stdexcept>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;  // NOLINT: POSIX has no header for it
 
 namespace quoin::deploy {
 
 namespace {
 
-constexpr double most_pixels = 20000.0;  // of a side
+constexpr const char* converter = "rsvg-convert";
 
-struct Release {
-  void operator()(RsvgHandle* handle) const { g_object_unref(handle); }
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
+/// A file in memory, for a process to read or to write.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(::memfd_create("picture", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw std::runtime_error("the picture cannot be drawn: out of files");
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { ::close(descriptor_); }
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+  void write(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written <= 0) throw std::runtime_error("the picture cannot be drawn: out of memory");
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    ::lseek(descriptor_, 0, SEEK_SET);
+  }
+
+  [[nodiscard]] std::string content() const {
+    std::string text;
+    std::array<char, 65536> part{};
+    for (off_t at = 0;; at = static_cast<off_t>(text.size())) {
+      const ssize_t got = ::pread(descriptor_, part.data(), part.size(), at);
+      if (got <= 0) return text;
+      text.append(part.data(), static_cast<std::size_t>(got));
+    }
+  }
+
+ private:
+  int descriptor_;
 };
-template <class T>
-using Owned = std::unique_ptr<T, Release>;
 
-[[noreturn]] void fail(GError* error) {
-  const std::string what = error != nullptr ? error->message : "unknown";
-  if (error != nullptr) g_error_free(error);
-  throw std::runtime_error("the picture cannot be drawn: " + what);
+/// Runs the converter until it ends, and returns its exit code. Throws when there is none.
+int convert_picture(const std::string& scale, const MemoryFile& svg, const MemoryFile& png,
+                    const MemoryFile& errors) {
+  std::array<std::string, 4> words{converter, "--format=png", "--zoom=" + scale,
+                                   "--background-color=white"};
+  std::array<char*, 5> arguments{};
+  for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
+  posix_spawn_file_actions_t actions{};
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, svg.descriptor(), STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, png.descriptor(), STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
+  pid_t process = 0;
+  const int failed =
+      ::posix_spawnp(&process, converter, &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) {
+    throw std::runtime_error(
+        "PNG files are made by rsvg-convert, which is not there; install it (Debian: "
+        "librsvg2-bin), or write a file that ends in .svg");
+  }
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 }  // namespace
 
 std::string png_of(const std::string& svg, double scale) {
-  GError* error = nullptr;
-  const Owned<RsvgHandle> handle(
-      rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
-  if (!handle) fail(error);
-  double width = 0.0;
-  double height = 0.0;
-  if (rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height) == 0) fail(nullptr);
-  width = std::ceil(width * scale);
-  height = std::ceil(height * scale);
-  if (!(width >= 1.0 && height >= 1.0 && width <= most_pixels && height <= most_pixels)) {
-    throw std::runtime_error("a picture of that size cannot be drawn");
+  const MemoryFile input;
+  const MemoryFile output;
+  const MemoryFile errors;
+  input.write(svg);
+  if (convert_picture(std::to_string(scale), input, output, errors) != 0) {
+    throw std::runtime_error("the picture cannot be drawn: " + errors.content());
   }
-  const Owned<cairo_surface_t> surface(cairo_image_surface_create(
-      CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height)));
-  const Owned<cairo_t> context(cairo_create(surface.get()));
-  cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
-  cairo_paint(context.get());
-  const RsvgRectangle viewport{0.0, 0.0, width, height};
-  if (rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error) == 0) fail(error);
-  std::string file;
-  const auto append = [](void* to, const unsigned char* bytes, unsigned count) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  if (cairo_surface_write_to_png_stream(surface.get(), append, &file) != CAIRO_STATUS_SUCCESS) {
-    fail(nullptr);
-  }
-  return file;
+  return output.content();
 }
 
 }  // namespace quoin::deploy
