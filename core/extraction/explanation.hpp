@@ -7,24 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/parameters/parameter.hpp"
+#include "core/extraction/method_chain.hpp"
 #include "core/segmentation/trace.hpp"
 #include "core/sensor/points.hpp"
 #include "core/sensor/scan.hpp"
 
 namespace quoin {
-
-/// A method with its settings, as a service runs it.
-struct MethodChoice {
-  std::string method;
-  ParameterSettings settings = {};
-};
-
-struct MethodChain {
-  MethodChoice segmenter;
-  MethodChoice fitter;
-  MethodChoice finder;
-};
 
 /// Where a line is missed: at a point, or in the direction of a bearing.
 struct Place {

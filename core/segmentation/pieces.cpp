@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 #include <utility>
 
 #include "core/fitting/algebraic.hpp"
@@ -19,40 +17,6 @@ constexpr std::size_t left_out_at_ends = 3;
 Moments inner_moments(const PointsView& points, const Segment& segment) {
   const std::size_t margin = std::min(left_out_at_ends, segment.size() / 4);
   return inverse_range_moments(points, segment.begin + margin, segment.end - margin);
-}
-
-std::optional<NormalLine> line_of(const Moments& moments) {
-  const auto solution = solve_algebraic(moments);
-  if (!solution || !(solution->x.squaredNorm() > 0.0)) return std::nullopt;
-  return normal_line(solution->x);
-}
-
-/// The line through two neighbours and how well it matches.
-struct Match {
-  Moments moments;
-  NormalLine line;
-  double excess = std::numeric_limits<double>::infinity();  // of the worst point
-};
-
-Match match_of(const PointsView& points, const Piece& first, const Piece& second,
-               const Tolerance& tolerance) {
-  Match match;
-  if (!second.joined || !first.line || !second.line) return match;
-  // A cheap test first: at a corner the outer end of the shorter piece is far from the other wall.
-  const bool first_is_longer = first.segment.size() >= second.segment.size();
-  const NormalLine& longer = first_is_longer ? *first.line : *second.line;
-  const std::size_t outer = first_is_longer ? second.segment.end - 1 : first.segment.begin;
-  if (is_beyond(longer, points, outer, tolerance)) return match;
-
-  match.moments = first.moments;
-  match.moments += second.moments;
-  const auto line = line_of(match.moments);
-  if (!line) return match;
-  match.line = *line;
-  const PointsView both = points.subview(first.segment.begin, second.segment.end);
-  const FarthestPoint farthest = farthest_from(match.line, both, tolerance);
-  if (!farthest.beyond()) match.excess = farthest.excess;
-  return match;
 }
 
 constexpr double parallel_sine = 0.05;  // lines that meet at less than 3 deg have no corner
@@ -176,6 +140,12 @@ void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& 
   pieces.resize(kept);
 }
 
+std::optional<NormalLine> line_of(const Moments& moments) {
+  const auto solution = solve_algebraic(moments);
+  if (!solution || !(solution->x.squaredNorm() > 0.0)) return std::nullopt;
+  return normal_line(solution->x);
+}
+
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].round || pieces[i].line) continue;
@@ -184,112 +154,6 @@ void fit_pieces(const PointsView& points, std::vector<Piece>& pieces) {
     pieces[i].moments = inner_moments(points, pieces[i].segment);
     pieces[i].line = line_of(pieces[i].moments);
   }
-}
-
-namespace {
-
-/// The matches of all neighbours, the best first. Each is found once, so that many pieces take
-/// little more than one by one.
-class Matches {
- public:
-  Matches(const PointsView& points, const Tolerance& tolerance, std::vector<Piece>& pieces)
-      : points_(points),
-        tolerance_(tolerance),
-        pieces_(pieces),
-        found_(pieces.size()),
-        points_left_(most_points_looked_at * points.size()) {
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      found_[i].before = i - 1;
-      found_[i].next = i + 1;
-    }
-    for (std::size_t i = 1; i < pieces.size(); ++i) look_at(i);
-  }
-
-  /// Joins the two that match best; false when no two do.
-  bool join_best() {
-    while (!waiting_.empty() && !is_valid(waiting_.top())) waiting_.pop();
-    if (waiting_.empty()) return false;
-    join(waiting_.top().second);
-    return true;
-  }
-
-  /// Only what is left.
-  void compact() {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < pieces_.size(); i = found_[i].next) pieces_[kept++] = pieces_[i];
-    pieces_.resize(kept);
-  }
-
- private:
-  // Of a piece with the one before it.
-  struct Found {
-    std::size_t before = 0;  // number of the neighbours
-    std::size_t next = 0;
-    std::size_t looks = 0;
-    Match match;
-  };
-  struct Waiting {
-    double excess = 0.0;
-    std::size_t second = 0;
-    std::size_t look = 0;
-    // The best on top; of equal ones the first of the scan.
-    friend bool operator<(const Waiting& a, const Waiting& b) {
-      return std::pair(a.excess, a.second) > std::pair(b.excess, b.second);
-    }
-  };
-
-  [[nodiscard]] bool is_valid(const Waiting& waiting) const {
-    return found_[waiting.second].looks == waiting.look;
-  }
-
-  void look_at(std::size_t second) {
-    Found& found = found_[second];
-    ++found.looks;
-    const Segment both{pieces_[found.before].segment.begin, pieces_[second].segment.end};
-    if (both.size() > points_left_) return;
-    points_left_ -= both.size();
-    found.match = match_of(points_, pieces_[found.before], pieces_[second], tolerance_);
-    if (!std::isinf(found.match.excess)) {
-      waiting_.push({found.match.excess, second, found.looks});
-    }
-  }
-
-  void join(std::size_t second) {
-    const Found& found = found_[second];
-    const std::size_t first = found.before;
-    pieces_[first].segment.end = pieces_[second].segment.end;
-    pieces_[first].moments = found.match.moments;
-    pieces_[first].line = found.match.line;
-    ++found_[second].looks;  // what waits of it is of no use any more
-    found_[first].next = found.next;
-    if (found.next < pieces_.size()) {
-      found_[found.next].before = first;
-      look_at(found.next);
-    }
-    if (first > 0) look_at(first);
-  }
-
-  // Of all points: even where a wall is joined from its many parts one by one, which the walls of
-  // rooms never are, the work stays bounded. What is not looked at stays as it is.
-  static constexpr std::size_t most_points_looked_at = 500;
-
-  const PointsView& points_;
-  const Tolerance& tolerance_;
-  std::vector<Piece>& pieces_;
-  std::vector<Found> found_;
-  std::priority_queue<Waiting> waiting_;
-  std::size_t points_left_;
-};
-
-}  // namespace
-
-void merge_collinear(const PointsView& points, const Tolerance& tolerance,
-                     std::vector<Piece>& pieces) {
-  if (pieces.size() < 2) return;
-  Matches matches(points, tolerance, pieces);
-  bool any = false;
-  while (matches.join_best()) any = true;
-  if (any) matches.compact();
 }
 
 void refine_boundaries(const PointsView& points, std::size_t min_points, const Tolerance& tolerance,

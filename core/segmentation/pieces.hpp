@@ -35,14 +35,12 @@ inline constexpr std::size_t fewest_points = 3;
 /// unless a break of the surface is between them.
 void drop_small(std::size_t fewest, std::size_t min_points, std::vector<Piece>& pieces);
 
+/// The line that these moments determine; nothing when they determine none.
+[[nodiscard]] std::optional<NormalLine> line_of(const Moments& moments);
+
 /// Fits a line to the inner points of each piece that has none and may have a joined neighbour;
 /// points at the ends may be on that neighbour's wall.
 void fit_pieces(const PointsView& points, std::vector<Piece>& pieces);
-
-/// Joins neighbours that are one line within the tolerance, which noise or clutter had split; best
-/// match first, because a short piece may suit both sides. The pieces have been fitted.
-void merge_collinear(const PointsView& points, const Tolerance& tolerance,
-                     std::vector<Piece>& pieces);
 
 /// Moves the boundaries between neighbours to where their lines meet. A vertex is chosen for being
 /// far from a line, that is also for its noise, and is a few points off the corner: one wall's fit

@@ -7,13 +7,10 @@
 namespace quoin {
 namespace {
 
-/// `moved` holds the ascending indices; `memory` is for work.
-void move_behind(const std::vector<std::size_t>& moved, std::vector<double>& values,
-                 std::vector<double>& memory) {
-  memory.clear();
-  for (const std::size_t i : moved) memory.push_back(values[i]);
+/// `moved` holds the ascending indices.
+void move_behind(const std::vector<std::size_t>& moved, std::vector<double>& values) {
+  for (const std::size_t i : moved) values.push_back(values[i]);
   erase_at<double>(moved, values);
-  values.insert(values.end(), memory.begin(), memory.end());
 }
 
 }  // namespace
@@ -28,10 +25,9 @@ Segment without(std::span<const std::size_t> left_out, const Segment& run) {
 
 void set_aside(Points& points, Segmentation& found) {
   if (found.foreign.empty()) return;
-  std::vector<double> memory;
   for (std::vector<double>* values : {&points.range, &points.bearing, &points.inverse_range,
                                       &points.cosine, &points.sine, &points.x, &points.y}) {
-    move_behind(found.foreign, *values, memory);
+    move_behind(found.foreign, *values);
   }
   const std::size_t first = points.size() - found.foreign.size();
   for (Segment& run : found.segments) run = without(found.foreign, run);

@@ -176,12 +176,12 @@ void SegmentBuilder::leave_out(std::span<const std::size_t> left_out) {
     removed_.assign(left_out.begin(), left_out.end());
   } else {
     own_.erase(left_out);
-    const auto known = static_cast<std::ptrdiff_t>(removed_.size());
+    const std::size_t known = removed_.size();
     for (const std::size_t i : left_out) {
-      const std::span<const std::size_t> before(removed_.data(), static_cast<std::size_t>(known));
+      const std::span<const std::size_t> before(removed_.data(), known);
       removed_.push_back(index_with(before, i));
     }
-    std::inplace_merge(removed_.begin(), removed_.begin() + known, removed_.end());
+    std::sort(removed_.begin(), removed_.end());  // merging them would allocate
   }
   points_ = own_;
 }
@@ -247,7 +247,7 @@ void SegmentBuilder::finish(Segmentation& found) {
     note_lost(PointOutcome::too_few_points, trace);
   }
   if (parameters_.merge) {
-    merge_collinear(points_, tolerance_, pieces_);
+    merge_(points_, tolerance_, pieces_);
     drop_small(min_points, min_points, pieces_);
     note_lost(PointOutcome::too_few_points, trace);
     find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_, blocks_);

@@ -9,6 +9,7 @@
 
 #include "core/segmentation/arcs.hpp"
 #include "core/segmentation/breakpoints.hpp"
+#include "core/segmentation/collinear_merge.hpp"
 #include "core/segmentation/pieces.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/straightness.hpp"
@@ -67,6 +68,7 @@ class SegmentBuilder {
 
   SegmentationParameters parameters_;
   BreakpointDetector breakpoints_;
+  CollinearMerge merge_;
   Straightener straightener_;
   ThinThings thin_things_;
   PointsView scan_;

@@ -47,21 +47,25 @@ void find_fill(const PointsView& points, const SensorModel& sensor,
   count_equal(range.data(), range.size(), equal);
   if (equal + 1 < fewest_equal) return;
 
-  std::vector<double> values;
+  // A point of each such run stands in `fill` meanwhile.
+  const auto first = static_cast<std::ptrdiff_t>(fill.size());
   for (std::size_t begin = 0; begin < range.size();) {
     std::size_t end = begin + 1;
     while (end < range.size() && range[end] == range[begin]) ++end;
     if (end - begin >= std::size_t{fewest_equal} &&
         variation_of_wall(points, {begin, end}) >
             deviations_of_variation * std::sqrt(sensor.range_variance(range[begin]))) {
-      values.push_back(range[begin]);
+      fill.push_back(begin);
     }
     begin = end;
   }
-  if (values.empty()) return;
+  const auto runs = static_cast<std::ptrdiff_t>(fill.size());
+  if (runs == first) return;
   for (std::size_t i = 0; i < range.size(); ++i) {
-    if (std::find(values.begin(), values.end(), range[i]) != values.end()) fill.push_back(i);
+    const auto same = [&](std::size_t run) { return range[run] == range[i]; };
+    if (std::any_of(fill.begin() + first, fill.begin() + runs, same)) fill.push_back(i);
   }
+  fill.erase(fill.begin() + first, fill.begin() + runs);
 }
 
 void pass_over_strays(const CoarsePoints& points, const BreakpointDetector& breakpoints,

@@ -51,6 +51,7 @@ void parse(CLI::App& app, int argc, char** argv);
 [[nodiscard]] Command add_export(CLI::App& app);
 [[nodiscard]] Command add_init(CLI::App& app);
 [[nodiscard]] Command add_lidar(CLI::App& app);
+[[nodiscard]] Command add_man(CLI::App& app);
 [[nodiscard]] Command add_map(CLI::App& app);
 [[nodiscard]] Command add_playback(CLI::App& app);
 [[nodiscard]] Command add_record(CLI::App& app);

@@ -42,7 +42,7 @@ deny deploy 'core/(segmentation|fitting|corners|circles)/' "deploy/ reaches meth
   'core/(segmentation/segment(ers)?|fitting/fit(ters)?|corners/corner_finders?|circles/circle_fit(ters)?)\.hpp'
 # `quoin evaluate` is there to run methods; what starts and watches processes runs none.
 deny deploy 'core/(evaluation/((circle_)?consistency|loop_coverage|segmentation_quality)|extraction|simulation)' \
-  "deploy/ runs no methods outside deploy/evaluation" '^deploy/evaluation/'
+  "deploy/ runs no methods outside deploy/evaluation" '^deploy/(evaluation|examples/library)/'
 deny deploy/evaluation 'deploy/(orchestration|command|diagnostics)/|idl/|services/(runtime|topics|keys)/' \
   "the evaluation needs no DDS and no deployment"
 deny deploy/diagnostics 'idl/|services/(runtime|topics)/|deploy/(orchestration|command)/' \

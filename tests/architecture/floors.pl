@@ -37,6 +37,7 @@ my @floors = (
     # Formats, settings and bodies of the sources, and what stands beside their mains.
     [ 'sensor_bridge/rplidar/emulator/', 10 ],
     [ 'sensor_bridge/',                  11 ],
+    [ 'deploy/examples/library/',        1 ],
     [ 'deploy/kinds/',                   12 ],
     [ 'deploy/evaluation/drawing/',      12 ],
     [ 'deploy/observation/',             13 ],
@@ -56,8 +57,8 @@ my %most_files = (
     'services/mapping/main.cpp'      => 168,
     'services/recorder/main.cpp'     => 129,
     'services/ros2_output/main.cpp'  => 128,
-    'services/segmentation/main.cpp' => 147,
-    'services/viewer/main.cpp'       => 198,
+    'services/segmentation/main.cpp' => 149,
+    'services/viewer/main.cpp'       => 201,
 );
 my $most_files_of_others = 123;
 
