@@ -39,6 +39,7 @@ void parse(CLI::App& app, int argc, char** argv);
 
 [[nodiscard]] Command add_up(CLI::App& app);
 [[nodiscard]] Command add_apply(CLI::App& app);
+[[nodiscard]] Command add_bundle(CLI::App& app);
 [[nodiscard]] Command add_calibrate(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_methods(CLI::App& app);

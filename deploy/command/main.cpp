@@ -28,7 +28,8 @@ int run(int argc, char** argv) {
       add_lidar(app),     add_map(app),     add_playback(app),   add_swap(app),
       add_set(app),       add_keys(app),    add_discovery(app),  add_doctor(app),
       add_calibrate(app), add_schema(app),  add_completion(app), add_version(app),
-      add_view(app),      add_explain(app), add_init(app),       add_man(app)};
+      add_view(app),      add_explain(app), add_init(app),       add_man(app),
+      add_bundle(app)};
   try {
     parse(app, argc, argv);
     for (const Command& command : commands) {

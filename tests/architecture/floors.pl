@@ -45,6 +45,7 @@ my @floors = (
     [ 'deploy/orchestration/',           14 ],
     [ 'deploy/export/',                  14 ],
     [ 'deploy/starter/',                 14 ],
+    [ 'deploy/bundle/',                  14 ],
     [ 'deploy/recordings/',              14 ],
     [ 'deploy/evaluation/',              14 ],
     [ 'deploy/calibration/',             15 ],

@@ -40,6 +40,11 @@ done
 # A deployment is read and its programs are found where quoin is.
 bin/quoin check share/quoin/examples/look.yaml >/dev/null || fail "quoin check of an installed example"
 
+if command -v systemd-analyze >/dev/null; then
+  sed "s#^ExecStart=quoin #ExecStart=$PWD/bin/quoin #" lib/systemd/system/quoin@.service >"$work/quoin@robot.service"
+  systemd-analyze verify --man=no --recursive-errors=no "$work/quoin@robot.service" || fail "quoin@.service"
+fi
+
 for page in share/man/man1/*.gz; do
   gzip -dc "$page" | head -n 1 | grep -q '^\.TH QUOIN' || fail "no manual page: $page"
   if command -v man >/dev/null; then

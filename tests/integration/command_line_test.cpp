@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,6 +52,30 @@ TEST_F(CommandLine, TheVersionIsACommandAndAnOption) {
   EXPECT_EQ(asked.exit_code, 0);
   EXPECT_THAT(asked.output, StartsWith("quoin "));
   EXPECT_EQ(asked.output, quoin({"version"}).output);
+}
+
+TEST_F(CommandLine, ABundleSaysWhatItHolds) {
+  std::ofstream(folder_ / "robot.yaml") << "version: 1\nservices: []\n";
+  const std::filesystem::path bundle = folder_ / "bundle.tar.gz";
+  const Outcome outcome = quoin({"bundle", folder_ / "robot.yaml", "-o", bundle});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* file : {"version.json", "deployment.yaml", "check.txt", "status.json"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(file));
+  }
+  EXPECT_GT(std::filesystem::file_size(bundle), 0U);
+  EXPECT_EQ(std::filesystem::status(bundle).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST_F(CommandLine, WritesManualPagesOfCommandsAndPrograms) {
+  const Outcome outcome = quoin({"man", "-o", folder_ / "man"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* page : {"quoin.1", "quoin-up.1", "quoin-segmentation.1", "quoin-process.1"}) {
+    std::ifstream stream(folder_ / "man" / page);
+    std::string line;
+    std::getline(stream, line);
+    EXPECT_THAT(line, StartsWith(".TH QUOIN")) << page;
+  }
 }
 
 TEST_F(CommandLine, TimesMayHaveAUnit) {
