@@ -52,6 +52,10 @@ struct ParameterInfo {
   friend bool operator==(const ParameterInfo&, const ParameterInfo&) = default;
 };
 
+/// The entries of a parameter that is a list with commas, without blanks around them; empty ones
+/// are left out.
+[[nodiscard]] std::vector<std::string> list_entries(std::string_view text);
+
 /// A setting that cannot be used: which parameter, what is wrong, what to do.
 class ParameterError : public std::invalid_argument {
  public:

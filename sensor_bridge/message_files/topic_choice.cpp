@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/text/list.hpp"
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/excerpt.hpp"
 
 namespace quoin::sensor_bridge {

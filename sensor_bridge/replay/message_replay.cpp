@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/text/list.hpp"
+#include "core/parameters/parameter.hpp"
 #include "sensor_bridge/message_files/topic_choice.hpp"
 #include "sensor_bridge/recordings/scan_files.hpp"
 #include "sensor_bridge/replay/playback_control.hpp"

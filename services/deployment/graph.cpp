@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "services/deployment/known_outputs.hpp"
 #include "services/topics/topic_types.hpp"
 
 namespace quoin {
@@ -26,11 +25,13 @@ OutputConfig output_of(const ServiceConfig& writer, std::string_view type,
           .qos = effective_qos(writer.qos, type)};
 }
 
-/// What an observer may find there: of a kind that nobody knows here any type there is.
-std::vector<OutputConfig> outputs_of(const ServiceConfig& writer, std::string_view name_space) {
+/// What `observer` may find there: of a kind that nobody knows here any type there is.
+std::vector<OutputConfig> outputs_of(const ServiceConfig& writer, const ServiceConfig& observer,
+                                     std::string_view name_space) {
   if (writer.info != nullptr) return writer.outputs;
   std::vector<OutputConfig> outputs;
-  if (const KindInfo* known = known_outputs(writer.kind)) {
+  const bool knows = observer.info != nullptr && observer.info->known_outputs != nullptr;
+  if (const KindInfo* known = knows ? observer.info->known_outputs(writer.kind) : nullptr) {
     for (const OutputPort& port : known->outputs) {
       if (known->gives(port, writer.parameters)) {
         outputs.push_back(output_of(writer, port.type, name_space));
@@ -79,7 +80,7 @@ std::vector<Connection> Graph::inputs_of(const ServiceConfig& service) const {
     const ServiceConfig* writer = find(input.service);
     if (writer == nullptr) continue;
     if (input.port.empty() && observes(service)) {
-      for (const OutputConfig& output : outputs_of(*writer, name_space_)) {
+      for (const OutputConfig& output : outputs_of(*writer, service, name_space_)) {
         connections.push_back({&service, "", output.type, Join::each, writer, output});
       }
       continue;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/text/list.hpp"
-
 namespace quoin {
 
 namespace {

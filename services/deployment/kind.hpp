@@ -47,6 +47,10 @@ struct KindInfo {
   std::vector<InputPort> inputs = {};  ///< of those that are `each`, the first decides the origin
   std::vector<OutputPort> outputs = {};
   bool observer = false;  ///< reads all outputs of the services named in `inputs:`, of any type
+  /// Of an observer: what kinds that its program does not have give (services/deployment/
+  /// known_outputs.hpp), null for those it does not know, which may give any type. Others need
+  /// none.
+  const KindInfo* (*known_outputs)(std::string_view kind) = nullptr;
   bool exclusive =
       false;  ///< holds something of which there is one: ends before its successor begins
   std::string device = {};  ///< parameter that names what only one service at a time can use

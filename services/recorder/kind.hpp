@@ -3,6 +3,7 @@
 #pragma once
 
 #include "services/deployment/kind.hpp"
+#include "services/deployment/known_outputs.hpp"
 #include "services/recorder/parameters.hpp"
 
 namespace quoin {
@@ -12,6 +13,7 @@ namespace quoin {
                              .description = "records what services publish in an MCAP file",
                              .program = "quoin-recorder",
                              .observer = true,
+                             .known_outputs = known_outputs,
                              .exclusive = true,
                              .parameters = describe_parameters<RecorderParameters>()};
   return kind;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "services/deployment/kind.hpp"
+#include "services/deployment/known_outputs.hpp"
 #include "services/ros2_output/parameters.hpp"
 
 namespace quoin {
@@ -15,6 +16,7 @@ namespace quoin {
           "transforms, maps, diagnostics",
       .program = "quoin-ros2-output",
       .observer = true,
+      .known_outputs = known_outputs,
       .parameters = describe_parameters<Ros2OutputParameters>()};
   return kind;
 }

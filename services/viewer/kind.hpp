@@ -3,6 +3,7 @@
 #pragma once
 
 #include "services/deployment/kind.hpp"
+#include "services/deployment/known_outputs.hpp"
 #include "services/viewer/settings.hpp"
 
 namespace quoin {
@@ -15,6 +16,7 @@ namespace quoin {
           "and Lichtblick",
       .program = "quoin-viewer",
       .observer = true,
+      .known_outputs = known_outputs,
       .exclusive = true,
       .parameters = describe_parameters<viewer::ViewerParameters>()};
   return kind;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/viewer/settings.hpp"
 
-#include "core/text/list.hpp"
+#include "core/parameters/parameter.hpp"
 
 namespace quoin::viewer {
 

@@ -54,14 +54,14 @@ my @floors = (
 # How many files the main file of a service may reach.
 # Landmarks are some twenty files by themselves; recorder and ros2_output reach all types; the viewer runs all methods to explain what they did.
 my %most_files = (
-    'services/localization/main.cpp' => 168,
-    'services/mapping/main.cpp'      => 168,
-    'services/recorder/main.cpp'     => 129,
-    'services/ros2_output/main.cpp'  => 128,
-    'services/segmentation/main.cpp' => 149,
-    'services/viewer/main.cpp'       => 201,
+    'services/localization/main.cpp' => 159,
+    'services/mapping/main.cpp'      => 159,
+    'services/recorder/main.cpp'     => 128,
+    'services/ros2_output/main.cpp'  => 127,
+    'services/segmentation/main.cpp' => 146,
+    'services/viewer/main.cpp'       => 200,
 );
-my $most_files_of_others = 123;
+my $most_files_of_others = 120;
 
 sub floor_of {
     my ($file) = @_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "services/deployment/kind.hpp"
+#include "services/deployment/known_outputs.hpp"
 
 namespace quoin::tests {
 
@@ -11,7 +12,8 @@ namespace quoin::tests {
   static const KindInfo kind{.name = "test_observer",
                              .description = "counts the messages of each topic",
                              .program = "quoin-test-observer",
-                             .observer = true};
+                             .observer = true,
+                             .known_outputs = known_outputs};
   return kind;
 }
 
