@@ -14,7 +14,7 @@ case "${1-}" in
   --json) format=json ;;
   *) echo "usage: ${BASH_SOURCE[0]} [--json]; the tree must have been built (tests/run.sh does)" >&2; exit 2 ;;
 esac
-for program in extraction_benchmark chain_benchmark side_by_side_benchmark composed_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark ros2_benchmark; do
+for program in extraction_benchmark chain_benchmark side_by_side_benchmark composed_benchmark rplidar_decoder_benchmark rplidar_bridge_benchmark standby_benchmark security_benchmark attack_benchmark ros2_benchmark; do
   if [[ ! -x $bin/$program ]]; then
     echo "$bin/$program is not there; run tests/run.sh --build-only first" >&2
     exit 2
@@ -38,6 +38,8 @@ if [[ $format == table ]]; then
   "$bin/standby_benchmark"
   echo "security: three rounds of 10 s without, signed and encrypted, at 10 Hz" >&2
   "$bin/security_benchmark"
+  echo "a hostile neighbour every other second for a minute, at 10 Hz" >&2
+  "$bin/attack_benchmark"
   echo "ROS 2: 300 scans at 10 Hz in turn, 3000 at 100 Hz, markers for 20 s" >&2
   "$bin/ros2_benchmark"
 fi

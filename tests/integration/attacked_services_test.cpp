@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Running services beside a hostile neighbour, without `quoin`: small enough to be built with
-// AddressSanitizer and UndefinedBehaviorSanitizer, whose reports end a process with another code.
+// Running services beside a hostile neighbour, and with damaged files, without `quoin`: small
+// enough to be built with AddressSanitizer and UndefinedBehaviorSanitizer, whose reports end a
+// process with another code.
 #include <csignal>
+#include <fstream>
+#include <iterator>
+#include <random>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -16,8 +20,27 @@ namespace quoin {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AnyOf;
+using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Text as a file that is left half written, or with a few bytes of its own changed.
+std::string damaged(std::string text, std::mt19937& random) {
+  const auto below = [&](std::size_t end) {
+    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+  };
+  if (below(3) == 0) return text.substr(0, below(text.size()));
+  for (std::size_t changes = 1 + below(8); changes > 0; --changes) {
+    text[below(text.size())] = static_cast<char>(below(256));
+  }
+  return text;
+}
 
 TEST(AttackedServices, GoOnAndEndAsIfNobodyHadAttackedThem) {
   const tests::TestDeployment deployment(R"(
@@ -58,6 +81,58 @@ TEST(AttackedServices, GoOnAndEndAsIfNobodyHadAttackedThem) {
     EXPECT_EQ(process.wait(20s), 0) << name << process.errors();
     EXPECT_THAT(process.errors(), Not(HasSubstr("runtime error"))) << name;
   }
+}
+
+TEST(AttackedServices, AReplayOfADamagedFileGivesWhatIsGoodOfItOrSaysWhatIsWrong) {
+  const std::string corpus = QUOIN_CORPUS_DIR;
+  std::string carmen;
+  std::string table = "angle_deg,range_m\n";
+  for (int i = 0; i < 20; ++i) {
+    carmen += "FLASER 4 1.0 2.0 2.5 1.5 0 0 0 0 0 0 " + std::to_string(0.1 * i) + " host " +
+              std::to_string(0.1 * i) + "\n";
+    table += std::to_string(9 * i) + ",2.5\n";
+  }
+  const std::map<std::string, std::string> files{{"log", carmen},
+                                                 {"csv", table},
+                                                 {"bag", content_of(corpus + "/bag/lz4")},
+                                                 {"db3", content_of(corpus + "/bag/sqlite")},
+                                                 {"mcap", content_of(corpus + "/mcap/chunk")}};
+  constexpr int copies = 4;  // of each file; the first as it is
+  std::string services;
+  for (const auto& [ending, content] : files) {
+    ASSERT_FALSE(content.empty()) << ending;
+    for (int copy = 0; copy < copies; ++copy) {
+      const std::string name = ending + std::to_string(copy);
+      services += "  - {name: " + name + ", kind: replay, parameters: {path: " + name + "." +
+                  ending + ", scans: 2, rate_hz: 100}}\n";
+    }
+  }
+  const tests::TestDeployment deployment("\n" + services);
+  std::mt19937 random(20261129);
+  for (const auto& [ending, content] : files) {
+    for (int copy = 0; copy < copies; ++copy) {
+      deployment.directory().write(ending + std::to_string(copy) + "." + ending,
+                                   copy == 0 ? content : damaged(content, random));
+    }
+  }
+  std::vector<int> codes;
+  for (const auto& [ending, content] : files) {
+    std::map<std::string, tests::Process> replays;
+    for (int copy = 0; copy < copies; ++copy) {
+      const std::string name = ending + std::to_string(copy);
+      replays.emplace(name, deployment.start(name));
+    }
+    for (auto& [name, replay] : replays) {
+      const auto code = replay.wait(30s);
+      ASSERT_TRUE(code.has_value()) << name << replay.errors();
+      codes.push_back(*code);
+      EXPECT_THAT(*code, AnyOf(0, 2, 3)) << name << replay.errors();
+      EXPECT_THAT(replay.errors(), Not(AnyOf(HasSubstr("runtime error"), HasSubstr("Sanitizer"))))
+          << name;
+    }
+  }
+  EXPECT_THAT(codes, Contains(0));
+  EXPECT_THAT(codes, Contains(AnyOf(2, 3)));
 }
 
 }  // namespace
