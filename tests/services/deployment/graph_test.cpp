@@ -3,6 +3,7 @@
 #include "services/deployment/graph.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,7 +84,7 @@ std::vector<std::string> texts(const std::vector<Connection>& connections) {
   return texts;
 }
 
-const ServiceConfig& named(const std::vector<ServiceConfig>& services, const std::string& name) {
+const ServiceConfig& named(const std::vector<ServiceConfig>& services, std::string_view name) {
   return *std::ranges::find(services, name, &ServiceConfig::name);
 }
 

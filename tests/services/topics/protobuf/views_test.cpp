@@ -51,7 +51,8 @@ msg::Scan scan_of(std::initializer_list<float> bearings, std::initializer_list<f
 
 TEST(Views, SchemasAreDeclared) {
   for (const TopicType& type : topic_types()) {
-    for (const View& view : Views(type.name).list()) {
+    const Views views(type.name);
+    for (const View& view : views.list()) {
       EXPECT_NO_THROW((void)protobuf_message(view.schema)) << type.name << ' ' << view.name;
     }
   }
