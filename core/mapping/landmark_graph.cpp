@@ -233,6 +233,7 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
   const Eigen::VectorXd change =
       inverse.transpose() * factor.solve(Eigen::VectorXd(inverse * -equations.gradient));
   if (!change.allFinite()) return cost;
+  largest_change_ = change.head(3 * poses).lpNorm<Eigen::Infinity>();
   for (int k = 0; k < poses; ++k) {
     Pose2& pose = keyframes_[static_cast<std::size_t>(k)].pose;
     const int row = 3 * k;
@@ -251,9 +252,31 @@ double LandmarkGraph::step(std::span<const int> last, Eigen::MatrixXd* covarianc
     const Eigen::MatrixXd block = factored.bottomRightCorner(count, count);
     const Eigen::MatrixXd root =
         block.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(count, count));
-    *covariance = root.transpose() * root;
+    covariance->setZero(count, count);
+    covariance->selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
+    covariance->triangularView<Eigen::StrictlyUpper>() = covariance->transpose();
   }
   return cost;
+}
+
+void LandmarkGraph::take_solution(const LandmarkGraph& solved) {
+  const std::size_t known = solved.keyframes_.size();
+  const Pose2 back = between(keyframes_[known - 1].pose, {});
+  const Pose2 correction = compose(solved.keyframes_[known - 1].pose, back);
+  for (std::size_t k = 0; k < keyframes_.size(); ++k) {
+    Pose2& pose = keyframes_[k].pose;
+    pose = k < known ? solved.keyframes_[k].pose : compose(correction, pose);
+  }
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    LineLandmark& landmark = landmarks_[i];
+    if (i < solved.landmarks_.size()) {
+      landmark.phi = solved.landmarks_[i].phi;
+      landmark.offset = solved.landmarks_[i].offset;
+    } else {
+      landmark.anchor = correction.transform(landmark.anchor);
+      landmark.phi = normalized_angle(landmark.phi + correction.theta);
+    }
+  }
 }
 
 double LandmarkGraph::optimize(int steps, bool trust_loops) {

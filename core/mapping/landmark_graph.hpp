@@ -74,6 +74,14 @@ class LandmarkGraph {
   /// it has to.
   double optimize(int steps, bool trust_loops = false);
 
+  /// The largest change of a pose by the last step of `optimize` [m, rad].
+  [[nodiscard]] double largest_change() const { return largest_change_; }
+  /// How much a step costs: it grows with this.
+  [[nodiscard]] std::size_t size() const { return keyframes_.size() + landmarks_.size(); }
+  /// Takes poses and walls over from a copy that was optimized meanwhile. What was added since then
+  /// moves along with the last keyframe that the copy has.
+  void take_solution(const LandmarkGraph& solved);
+
   /// The covariance of (pose of the keyframe, phi and offset of these landmarks), as of the last
   /// Gauss-Newton step, which it takes: (3 + 2 n) squared.
   [[nodiscard]] Eigen::MatrixXd marginal_after_step(std::size_t keyframe,
@@ -110,6 +118,7 @@ class LandmarkGraph {
   std::vector<Edge> edges_;
   std::vector<LineLandmark> landmarks_;
   std::vector<Merge> merges_;
+  double largest_change_ = 0.0;
 };
 
 }  // namespace quoin

@@ -27,12 +27,15 @@ PoseEstimate pose_of(const WallBelief& belief) {
 
 void Landmarks::operator()(const LocalizationInput& input, Localization& result) {
   take_scan(input);
+  refreshed_ = false;
   if (graph_.keyframes().empty()) {
     begin(result);
   } else {
     localize(input, result);
   }
   report(input, result);
+  // What can wait waits for a scan with less to do.
+  if (given_.empty() && !refreshed_ && !loss_.is_lost()) loops_.work(graph_, clouds_);
   stamp_ = input.stamp;
 }
 
@@ -110,6 +113,7 @@ void Landmarks::localize(const LocalizationInput& input, Localization& result) {
   // What the graph has smoothed moves the last scan along.
   if (base_is_keyframe_ && since_.pose.x == 0.0 && since_.pose.y == 0.0) {
     last_pose_ = belief_.pose;
+    if (registered_) registered_ = belief_.pose;
     result.pose = pose_of(belief_);
   }
 }

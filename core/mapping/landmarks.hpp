@@ -38,8 +38,8 @@ namespace quoin {
 ///    sum |v_line|^2_R + sum |v_motion|^2_C with Huber's loss.
 /// 4. Loops: the points of the last keyframes are looked for in those of long before, in a window
 ///    that grows with the way. A loop needs one clear best pose, two pairs of keyframes that agree,
-///    and a trial on a copy of the graph; it is taken out, with the walls merged since, when its
-///    chi square grows beyond a gate later.
+///    and a trial on a copy of the graph, which is spread over some scans; it is taken out, with
+///    the walls merged since, when its chi square grows beyond a gate later.
 /// 5. Where the points do not fit and the walls contradict the scan, the status is `lost`, until
 ///    a scan fits one place of the whole map and no other by its points, and the next ones, too.
 class Landmarks {
@@ -54,7 +54,7 @@ class Landmarks {
   static constexpr const char* choose =
       "For a pose and a map that stay true over many laps, with odometry or with the LiDAR alone. "
       "It says where walls leave a direction open, and finds itself again in its map.";
-  static constexpr const char* state = "landmarks/4";
+  static constexpr const char* state = "landmarks/5";
 
   struct Parameters {
     double keyframe_distance = 0.4;  // [m]
@@ -105,8 +105,9 @@ class Landmarks {
     archive(self.graph_, self.clouds_, self.given_, self.belief_, self.since_,
             self.search_covariance_, self.well_matched_, self.base_keyframe_,
             self.base_is_keyframe_, self.last_pose_, self.velocity_, self.stamp_, self.last_share_,
-            self.has_odometry_, self.refreshed_at_, self.refreshed_keyframe_, self.loops_,
-            self.odometry_scale_, self.registered_, self.loss_, self.relocalization_, self.near_);
+            self.has_odometry_, self.refreshed_at_, self.refreshed_keyframe_, self.refresh_again_,
+            self.loops_, self.odometry_scale_, self.registered_, self.loss_, self.relocalization_,
+            self.near_);
   }
 
  private:
@@ -146,7 +147,9 @@ class Landmarks {
   bool base_is_keyframe_ = true;   // and whether it is still of its pose
   Pose2 refreshed_at_;
   std::size_t refreshed_keyframe_ = 0;
-  PointMap near_;  // points around, that scans are registered to
+  bool refresh_again_ = false;  // with the next keyframe, because a loop was closed
+  bool refreshed_ = false;      // in this scan
+  PointMap near_;               // points around, that scans are registered to
 
   // The last scan.
   std::optional<double> stamp_;

@@ -97,11 +97,12 @@ void Landmarks::add_keyframe(const WallBelief& posterior, const WallPairs& pairs
   near_.add(belief_.pose, scan_);
   const double way = std::hypot(belief_.pose.x - refreshed_at_.x, belief_.pose.y - refreshed_at_.y);
   loops_.check(graph_);
-  const bool closed = loops_.close(graph_, clouds_);
-  if (closed || keyframe >= refreshed_keyframe_ + refresh_keyframes || way > refresh_distance) {
+  const bool closed = loops_.close(graph_);
+  if (closed || refresh_again_ || keyframe >= refreshed_keyframe_ + refresh_keyframes ||
+      way > refresh_distance) {
     refresh();
-    if (closed) refresh();
     rebuild_near();
+    refresh_again_ = closed;
   }
 }
 
@@ -146,6 +147,7 @@ void Landmarks::refresh() {
   for (const std::size_t index : belief_.landmarks) {
     belief_.walls.emplace_back(graph_.landmarks()[index].phi, graph_.landmarks()[index].offset);
   }
+  refreshed_ = true;
   refreshed_at_ = belief_.pose;
   refreshed_keyframe_ = keyframe;
   if (given_.empty()) merge_same_walls(graph_, belief_);

@@ -8,9 +8,9 @@ namespace quoin {
 namespace {
 
 constexpr double loop_cost = 100.0;  // of what closes a loop, for each pair of keyframes
-constexpr int steps_without = 3;
 constexpr int steps_trusted = 6;
-constexpr int steps_weighted = 3;
+constexpr int steps_weighted = 3;  // and without the loop
+constexpr double still = 1e-3;     // [m, rad] of every pose
 
 }  // namespace
 
@@ -21,23 +21,26 @@ LoopTrial::LoopTrial(const LandmarkGraph& graph, std::span<const LandmarkGraph::
 }
 
 LoopTrial::Verdict LoopTrial::step() {
-  const int step = steps_++;
-  if (step < steps_without) {
-    cost_before_ = graph_.optimize(1);
-    return Verdict::open;
+  const double cost = graph_.optimize(1, phase_ == Phase::trusted);
+  if (phase_ == Phase::without) cost_before_ = cost;
+  if (phase_ == Phase::trusted) cost_after_ = cost;
+  ++steps_;
+  const int most = phase_ == Phase::trusted ? steps_trusted : steps_weighted;
+  if (steps_ < most && graph_.largest_change() > still) return Verdict::open;
+  if (phase_ == Phase::weighted) return judge();
+  end_phase();
+  return Verdict::open;
+}
+
+void LoopTrial::end_phase() {
+  steps_ = 0;
+  if (phase_ == Phase::trusted) {
+    phase_ = Phase::weighted;
+    return;
   }
-  if (step == steps_without) {
-    first_loop_ = graph_.edges().size();
-    for (const LandmarkGraph::Edge& edge : loop_) {
-      graph_.close_loop(edge.from, edge.to, edge.motion);
-    }
-  }
-  if (step < steps_without + steps_trusted) {
-    cost_after_ = graph_.optimize(1, true);
-    return Verdict::open;
-  }
-  graph_.optimize(1);
-  return step + 1 < steps_without + steps_trusted + steps_weighted ? Verdict::open : judge();
+  phase_ = Phase::trusted;
+  first_loop_ = graph_.edges().size();
+  for (const LandmarkGraph::Edge& edge : loop_) graph_.close_loop(edge.from, edge.to, edge.motion);
 }
 
 LoopTrial::Verdict LoopTrial::judge() const {

@@ -60,7 +60,7 @@ struct LogEntry {
   RelationErrors at_scans;      // relations whose stamps are those of scans
   RelationErrors interpolated;  // all that the trajectory covers
   RelationErrors own;           // interpolated, of the poses that the log holds
-  double median_seconds = 0.0, p99_seconds = 0.0;
+  double median_seconds = 0.0, p99_seconds = 0.0, longest_seconds = 0.0;
   Drawing picture;
 };
 
@@ -209,6 +209,7 @@ class MappingSection : public Section {
       if (timing_) {
         log["median_ms"] = 1e3 * entry.median_seconds;
         log["p99_ms"] = 1e3 * entry.p99_seconds;
+        log["longest_ms"] = 1e3 * entry.longest_seconds;
       }
       logs.push_back(std::move(log));
     }
@@ -250,12 +251,12 @@ class MappingSection : public Section {
         "deviation of the length by which the relative translation differs, and of the rotation. "
         "Relations at scans are those with both stamps within 1 ms of one; a stamp that is some "
         "milliseconds off is that of another scan. Poses of a log are a particle filter's.");
-    HtmlTable logs{
-        {},
-        {"log", "odometry", "scans", "tracking [%]", "relations", "at scans [m]",
-         "interpolated [m]", "rotation [deg]", "poses of the log [m]", "median [ms]", "p99 [ms]"},
-        {},
-        2};
+    HtmlTable logs{{},
+                   {"log", "odometry", "scans", "tracking [%]", "relations", "at scans [m]",
+                    "interpolated [m]", "rotation [deg]", "poses of the log [m]", "median [ms]",
+                    "p99 [ms]", "longest [ms]"},
+                   {},
+                   2};
     for (const LogEntry& entry : logs_) {
       logs.rows.push_back(
           {files_[entry.file].name, entry.has_odometry ? "yes" : "no", std::to_string(entry.scans),
@@ -267,7 +268,8 @@ class MappingSection : public Section {
            spread(entry.at_scans.translation), spread(entry.interpolated.translation),
            fixed(degrees * mean(entry.interpolated.rotation), 2), spread(entry.own.translation),
            timing_ ? fixed(1e3 * entry.median_seconds, 1) : "-",
-           timing_ ? fixed(1e3 * entry.p99_seconds, 1) : "-"});
+           timing_ ? fixed(1e3 * entry.p99_seconds, 1) : "-",
+           timing_ ? fixed(1e3 * entry.longest_seconds, 1) : "-"});
     }
     page.table(logs);
     page.paragraph(
@@ -454,6 +456,7 @@ class MappingSection : public Section {
     if (!seconds.empty()) {
       entry.median_seconds = median(seconds);
       entry.p99_seconds = quantile(seconds, 0.99);
+      entry.longest_seconds = quantile(seconds, 1.0);
     }
     entry.picture.title = "Map of " + file.name;
     const std::size_t every = std::max<std::size_t>(trajectory.size() / 2000, 1);
