@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/extraction/explanation.hpp"
 
+#include <string>
+#include <string_view>
+
 #include <gmock/gmock.h>
 
 #include "core/extraction/extraction.hpp"
@@ -46,9 +49,10 @@ ParameterSettings with(const Remedy& remedy) {
   return {{remedy.parameter, detail::number_text(remedy.would)}};
 }
 
-const Remedy& named(const Explanation& found, const std::string& parameter) {
+const Remedy& named(const Explanation& found, std::string_view parameter) {
   const auto remedy = std::ranges::find(found.remedies, parameter, &Remedy::parameter);
-  if (remedy == found.remedies.end()) throw std::out_of_range("no remedy " + parameter);
+  if (remedy == found.remedies.end())
+    throw std::out_of_range("no remedy " + std::string(parameter));
   return *remedy;
 }
 

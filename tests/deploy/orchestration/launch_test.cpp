@@ -3,6 +3,7 @@
 #include "deploy/orchestration/launch.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ std::vector<ProcessPlan> plans(const Deployment& deployment, const std::string& 
   return process_plans(deployment, host, no_observers);
 }
 
-const ProcessPlan& named(const std::vector<ProcessPlan>& plans, const std::string& name) {
+const ProcessPlan& named(const std::vector<ProcessPlan>& plans, std::string_view name) {
   return *std::ranges::find(plans, name, &ProcessPlan::name);
 }
 
