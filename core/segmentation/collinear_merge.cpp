@@ -40,7 +40,10 @@ void CollinearMerge::look_at(std::size_t second, const PointsView& points,
   Neighbour& found = neighbours_[second];
   ++found.looks;
   const Segment both{pieces[found.before].segment.begin, pieces[second].segment.end};
-  if (both.size() > points_left_) return;
+  if (both.size() > points_left_) {
+    all_ = false;
+    return;
+  }
   points_left_ -= both.size();
   found.match = match_of(points, pieces[found.before], pieces[second], tolerance);
   if (std::isinf(found.match.excess)) return;
@@ -58,9 +61,10 @@ std::size_t CollinearMerge::take_best() {
   return 0;
 }
 
-void CollinearMerge::operator()(const PointsView& points, const Tolerance& tolerance,
+bool CollinearMerge::operator()(const PointsView& points, const Tolerance& tolerance,
                                 std::vector<Piece>& pieces) {
-  if (pieces.size() < 2) return;
+  all_ = true;
+  if (pieces.size() < 2) return all_;
   neighbours_.assign(pieces.size(), {});
   waiting_.clear();
   points_left_ = most_points_looked_at * points.size();
@@ -86,10 +90,11 @@ void CollinearMerge::operator()(const PointsView& points, const Tolerance& toler
     }
     if (first > 0) look_at(first, points, tolerance, pieces);
   }
-  if (!any) return;
+  if (!any) return all_;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pieces.size(); i = neighbours_[i].next) pieces[kept++] = pieces[i];
   pieces.resize(kept);
+  return all_;
 }
 
 }  // namespace quoin

@@ -18,8 +18,9 @@ namespace quoin {
 /// pieces take little more than one by one. Keeps its memory from scan to scan.
 class CollinearMerge {
  public:
-  /// The pieces have been fitted.
-  void operator()(const PointsView& points, const Tolerance& tolerance, std::vector<Piece>& pieces);
+  /// The pieces have been fitted. False when neighbours were left that nobody looked at: see
+  /// `Segmentation::cut_short`.
+  bool operator()(const PointsView& points, const Tolerance& tolerance, std::vector<Piece>& pieces);
 
  private:
   /// The line through two neighbours and how well it matches.
@@ -55,6 +56,7 @@ class CollinearMerge {
   std::vector<Neighbour> neighbours_;
   std::vector<Waiting> waiting_;  // a heap; those looked at again since count no more
   std::size_t points_left_ = 0;
+  bool all_ = true;  // have been looked at
 };
 
 }  // namespace quoin

@@ -186,6 +186,7 @@ void ExpectationMaximization::operator()(const PointsView& scan, const SensorMod
     const double densities = static_cast<double>(cluster.size() * mixture_.lines());
     const double part = std::min(1.0, most_densities / std::max(densities, 1.0));
     const int iterations = static_cast<int>(std::ceil(part * parameters_.iterations));
+    if (part < 1.0) builder_.cut_short();
     for (int k = 0; k < iterations; ++k) {
       mixture_.step(points, builder_.tolerance(), static_cast<double>(fewest_) / 2.0);
     }

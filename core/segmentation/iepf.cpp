@@ -19,8 +19,9 @@ void Iepf::split(const PointsView& points, const Segment& cluster) {
       const FarthestPoint farthest =
           farthest_from_chord(points, builder_.coarse_points(), segment, builder_.tolerance());
       if (farthest.index > 0 && farthest.index + 1 < segment.size() && farthest.beyond()) {
-        const std::size_t vertex =
-            segment.begin + (chord.depth < deepest ? farthest.index : segment.size() / 2);
+        const bool in_time = chord.depth < deepest;
+        if (!in_time) builder_.cut_short();
+        const std::size_t vertex = segment.begin + (in_time ? farthest.index : segment.size() / 2);
         ++chord.depth;
         waiting_.push_back({{vertex, segment.end}, chord.depth});
         segment.end = vertex + 1;

@@ -37,6 +37,8 @@ struct Segmentation {
   std::vector<Segment> arcs;
   std::vector<std::size_t> foreign;  ///< ascending: points inside of them that are not on them
   std::size_t no_return = 0;         ///< points with what the sensor writes where nothing came back
+  /// The work for one scan reached its bound, which scans of rooms do not: walls may be in pieces.
+  bool cut_short = false;
   /// Where it is to be said what became of each point; usually nowhere, and then nobody asks.
   SegmentationTrace* trace = nullptr;
 
@@ -45,6 +47,7 @@ struct Segmentation {
     arcs.clear();
     foreign.clear();
     no_return = 0;
+    cut_short = false;
   }
 };
 

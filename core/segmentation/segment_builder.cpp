@@ -192,6 +192,7 @@ PointsView SegmentBuilder::start(const PointsView& scan, const SensorModel& sens
   scan_ = scan;
   points_ = scan;
   removed_.clear();
+  cut_short_ = false;
   sensor_ = sensor;
   left_out_.clear();
   find_fill(points_, sensor_, left_out_);
@@ -247,7 +248,7 @@ void SegmentBuilder::finish(Segmentation& found) {
     note_lost(PointOutcome::too_few_points, trace);
   }
   if (parameters_.merge) {
-    merge_(points_, tolerance_, pieces_);
+    if (!merge_(points_, tolerance_, pieces_)) cut_short();
     drop_small(min_points, min_points, pieces_);
     note_lost(PointOutcome::too_few_points, trace);
     find_arcs(points_, sensor_, tolerance_, parameters_.flatness, pieces_, blocks_);
@@ -269,6 +270,7 @@ void SegmentBuilder::finish(Segmentation& found) {
   std::vector<PointOutcome> verdicts;  // no memory unless traced
   select_lines(points_, pieces_, parameters_, sensor_, tolerance_, found,
                trace != nullptr ? &verdicts : nullptr);
+  found.cut_short = cut_short_;
   if (!removed_.empty()) to_scan(found);
   if (parameters_.merge) {
     thin_things_.find(scan_, sensor_, tolerance_, breakpoints_, parameters_.flatness, found);

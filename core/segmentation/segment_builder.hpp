@@ -52,6 +52,9 @@ class SegmentBuilder {
   /// The pieces of one cluster, found in any order; sorts them.
   void add_all(std::vector<Segment>& pieces);
 
+  /// Notes that the method has left some of its work, to be done with the scan in time.
+  void cut_short() { cut_short_ = true; }
+
   /// Merges, straightens, refines and selects as the parameters say. The result is of the points of
   /// the scan.
   void finish(Segmentation& found);
@@ -84,6 +87,7 @@ class SegmentBuilder {
   std::vector<TestedBlocks> blocks_;  // of the pieces
   bool many_strays_ = false;
   std::size_t no_return_ = 0;
+  bool cut_short_ = false;
   std::vector<char> covered_;  // by point of the scan: in a piece; only when traced
   bool closed_ = false;        // the surface goes on from the last point to the first
   std::size_t cluster_ = 0;    // of the last piece

@@ -54,7 +54,9 @@ void SplitAndMerge::split(const PointsView& points, const Segment& cluster) {
     const auto [piece, depth] = stack_.back();
     const std::size_t vertex = vertex_of(points, piece);
     if (vertex != piece.begin) {
-      const std::size_t cut = depth < deepest ? vertex : piece.begin + piece.size() / 2;
+      const bool in_time = depth < deepest;
+      if (!in_time) builder_.cut_short();
+      const std::size_t cut = in_time ? vertex : piece.begin + piece.size() / 2;
       stack_.back() = {{cut, piece.end}, depth + 1};
       stack_.push_back({{piece.begin, cut}, depth + 1});
       continue;

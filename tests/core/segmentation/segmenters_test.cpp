@@ -277,6 +277,26 @@ TEST_P(EverySegmenter, EndsWithTheLargestScanWhateverItShows) {
   }
 }
 
+TEST_P(EverySegmenter, IsNotCutShortByARoom) {
+  Segmentation found;
+  found.cut_short = true;
+  make()(noisy_points("square_room", 1), {}, found);
+  EXPECT_FALSE(found.cut_short);
+}
+
+TEST(CutShort, IsSaidWhereTheWorkForAScanHasABound) {
+  for (const std::string method : {"iepf", "split_and_merge", "expectation_maximization"}) {
+    const auto segmenter = Segmenters::make<Segmenter>(method, {});
+    bool any = false;
+    for (const std::string_view shape : hostile_shapes) {
+      Segmentation found;
+      segmenter(hostile_scan(shape, 100'000), {0.01, 0.0, 0.0}, found);
+      any = any || found.cut_short;
+    }
+    EXPECT_TRUE(any) << method;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EverySegmenter, testing::ValuesIn(segmenter_names()),
                          [](const auto& test) { return test.param; });
 
