@@ -6,6 +6,8 @@
 # deployments of which half is in it and half is of this machine, where this tree has been built (tests/two_versions.sh).
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=tests/debian_root.sh
+. "$source/tests/debian_root.sh"
 
 usage() {
   cat <<'TEXT'
@@ -35,18 +37,8 @@ while [[ $# -gt 0 ]]; do
     *) usage >&2; exit 2 ;;
   esac
 done
-if [[ $(id -u) -ne 0 ]]; then
-  echo "debian13.sh: needs to be root: debootstrap and chroot do" >&2
-  exit 1
-fi
-if ! command -v debootstrap >/dev/null; then
-  echo "debian13.sh: needs debootstrap (apt-get install debootstrap)" >&2
-  exit 1
-fi
-if [[ -z $mirror ]]; then
-  # shellcheck disable=SC2016
-  mirror=$(apt-get indextargets --format '$(REPO_URI)' | grep -v security | sort -u | head -n 1)
-fi
+needs_debootstrap debian13.sh
+mirror=${mirror:-$(mirror_of_this_machine)}
 mkdir -p "$cache"
 cache=$(cd "$cache" && pwd)
 root=$cache/root
@@ -59,19 +51,6 @@ step() {
   printf '== Debian 13: %s took %d s\n' "$1" $((SECONDS - begin))
 }
 
-make_root() {
-  if [[ -e $cache/complete ]]; then
-    echo "$root is there"
-    return
-  fi
-  rm -rf --one-file-system "$root"
-  debootstrap --variant=minbase trixie "$root" "$mirror" >"$cache/debootstrap.log" || {
-    tail -n 20 "$cache/debootstrap.log" >&2
-    return 1
-  }
-  touch "$cache/complete"
-}
-
 # All that git knows or would know, with its times: what is built already stays built.
 copy_sources() {
   mkdir -p "$root/quoin"
@@ -79,23 +58,6 @@ copy_sources() {
   git -C "$source" -c safe.directory='*' ls-files --cached --others --exclude-standard -z |
     (cd "$source" && while IFS= read -r -d '' file; do [[ ! -e $file ]] || printf '%s\0' "$file"; done) |
     tar --create --directory="$source" --null --files-from=- | tar --extract --directory="$root/quoin"
-}
-
-# inside OPTIONS COMMAND...: in mount and process namespaces of its own, and what else the options of unshare say. What is
-# mounted and started there ends with it.
-# shellcheck disable=SC2016,SC2086
-inside() {
-  unshare --mount --pid --fork --kill-child $1 bash -c '
-    root=$1
-    shift
-    mount -t proc proc "$root/proc"
-    mount --bind /sys "$root/sys"
-    mount --rbind /dev "$root/dev"
-    mount -t tmpfs tmpfs "$root/dev/shm"
-    cp /etc/resolv.conf "$root/etc/resolv.conf"
-    ip link set lo up
-    exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-      CCACHE_DIR=/var/cache/ccache "$@"' _ "$root" "${@:2}"
 }
 
 short_tests() {
@@ -108,7 +70,7 @@ short_tests() {
     ctest --test-dir build --output-on-failure -L integration -R "^(Chain|Security|Status|Up)\." -j "$(($(nproc) + 1))"'
 }
 
-step "root" make_root
+step "root" make_debian trixie "$cache" "$mirror"
 step "copy of the sources" copy_sources
 step "packages" inside "" /quoin/deploy/install_packages.sh
 step "deploy/quickstart.sh" inside --net /quoin/deploy/quickstart.sh --duration 20 --json
