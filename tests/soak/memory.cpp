@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
+#include <sstream>
 #include <unistd.h>
 
 namespace quoin::soak {
@@ -20,7 +21,23 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// When the process began, as the kernel counts; "" when there is none.
+std::string start_of(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  // The name of the program, the second field, may hold anything; it ends at the last parenthesis.
+  std::istringstream rest(line.substr(std::min(line.rfind(')'), line.size())));
+  std::string field;
+  for (int i = 2; i <= 22; ++i) rest >> field;
+  return rest ? field : "";
+}
+
 }  // namespace
+
+void Memory::begin() {
+  for (auto& [process, history] : histories_) history.samples.clear();
+}
 
 void Memory::sample(const std::map<pid_t, std::string>& processes) {
   const auto now = Clock::now();
@@ -31,8 +48,9 @@ void Memory::sample(const std::map<pid_t, std::string>& processes) {
     double total = 0.0;
     double resident = 0.0;
     if (!(file >> total >> resident) || resident == 0.0) continue;  // gone, or not yet reaped
-    History& history = histories_[process];
-    history.service = service;
+    const std::string started = start_of(process);
+    History& history = histories_.try_emplace(process, History{service, started, {}}).first->second;
+    if (history.started != started) continue;
     history.samples.push_back(resident * static_cast<double>(::sysconf(_SC_PAGESIZE)));
   }
 }

@@ -14,8 +14,9 @@ namespace quoin::soak {
 class Memory {
  public:
   /// From now on it counts.
-  void begin() { histories_.clear(); }
-  /// Takes a sample of each process, when the last one is a second old.
+  void begin();
+  /// Takes a sample of each process, when the last one is a second old. A process that has ended
+  /// stays ended, whoever gets its number.
   void sample(const std::map<pid_t, std::string>& processes);
 
   struct Growth {
@@ -30,6 +31,7 @@ class Memory {
   using Clock = std::chrono::steady_clock;
   struct History {
     std::string service;
+    std::string started;          // in ticks since the host was
     std::vector<double> samples;  // [byte] one a second
   };
   Clock::time_point next_;

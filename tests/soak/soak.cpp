@@ -217,6 +217,7 @@ ordered_json run(const Options& options, Verdict& verdict) {
   verdict.require(summary.is_object(), "quoin up gave no summary");
   if (summary.is_object()) report["scans"] = judge_scans(summary, deployment.deployment(), verdict);
   report["memory"] = judge_memory(memory, options.minutes, verdict);
+  report["log_bytes"] = up.errors().size();
   report["left"] = judge_leftovers(deployment, shared_memory, verdict);
   if (options.verbose || !verdict.faults().empty()) std::cerr << up.errors();
   return report;
