@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sensor_bridge/recordings/scan_geometry.hpp"
+
 namespace quoin::sensor_bridge {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 struct Word {
   std::string_view text;

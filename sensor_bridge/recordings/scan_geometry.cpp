@@ -12,8 +12,6 @@ namespace quoin::sensor_bridge {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 // A scan of fewer rays is of no sensor that could be told by their number.
 constexpr std::size_t fewest_to_judge = 16;
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "sensor_bridge/recordings/recorded_scan.hpp"
 
 namespace quoin::sensor_bridge {
+
+inline constexpr double degree = std::numbers::pi / 180.0;  ///< [rad]
 
 /// Where the rays of a recording point, as far as its user declares it.
 struct ScanGeometry {
