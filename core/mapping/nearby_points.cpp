@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/mapping/scan_judgement.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 
@@ -63,12 +64,7 @@ std::vector<std::size_t> keyframes_around(const LandmarkGraph& graph, const Pose
       chosen.emplace_back(distance, k);
     }
   }
-  std::sort(chosen.begin(), chosen.end());
-  if (chosen.size() > most) chosen.resize(most);
-  std::vector<std::size_t> result;
-  for (const auto& [distance, k] : chosen) result.push_back(k);
-  std::sort(result.begin(), result.end());
-  return result;
+  return indices_of_least(std::move(chosen), most);
 }
 
 std::size_t nearest_keyframe(const LandmarkGraph& graph, const Pose2& pose) {

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/geometry/angle.hpp"
+#include "core/statistics/order_statistics.hpp"
 
 namespace quoin {
 namespace {
@@ -31,12 +32,7 @@ std::vector<std::size_t> walls_around(std::span<const LineLandmark> map, const P
     const double distance = (landmark.at(s) - Eigen::Vector2d(pose.x, pose.y)).norm();
     if (distance < reach) around.emplace_back(distance, i);
   }
-  std::sort(around.begin(), around.end());
-  if (around.size() > most_active) around.resize(most_active);
-  std::vector<std::size_t> result;
-  for (const auto& [distance, index] : around) result.push_back(index);
-  std::sort(result.begin(), result.end());
-  return result;
+  return indices_of_least(std::move(around), most_active);
 }
 
 void merge_same_walls(LandmarkGraph& graph, WallBelief& belief) {

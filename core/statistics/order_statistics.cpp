@@ -55,6 +55,16 @@ float approximate_median(std::span<const float> values) {
   return median;
 }
 
+std::vector<std::size_t> indices_of_least(std::vector<std::pair<double, std::size_t>> values,
+                                          std::size_t most) {
+  std::sort(values.begin(), values.end());
+  if (values.size() > most) values.resize(most);
+  std::vector<std::size_t> indices;
+  for (const auto& [value, index] : values) indices.push_back(index);
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
 BoxSummary box_summary(const std::vector<double>& values) {
   BoxSummary box;
   if (values.empty()) return box;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -21,6 +22,11 @@ namespace quoin {
 /// Median of values that are not negative, to one part in a thousand: for the data path, where
 /// sorting would cost more than all else that is done with them. 0 when there is none.
 [[nodiscard]] float approximate_median(std::span<const float> values);
+
+/// The indices of the `most` least values, which stand beside them, ascending; of equal values
+/// those of the least indices.
+[[nodiscard]] std::vector<std::size_t> indices_of_least(
+    std::vector<std::pair<double, std::size_t>> values, std::size_t most);
 
 /// What a box plot shows of values: whiskers reach to the last value within 1.5 times the distance
 /// of the quartiles from the box.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Quoin authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cctype>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -11,6 +11,7 @@
 
 #include "deploy/command/commands.hpp"
 #include "deploy/kinds/kinds.hpp"
+#include "services/files/atomic_file.hpp"
 
 namespace quoin::deploy {
 
@@ -117,9 +118,9 @@ std::string page_of_program(const std::string& program, const std::string& descr
 void write_page(const std::filesystem::path& folder, const std::string& name,
                 const std::string& text) {
   const std::filesystem::path file = folder / (name + ".1");
-  std::ofstream stream(file);
-  stream << text;
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
+  if (const int error = write_atomically(file, text, 0644); error != 0) {
+    throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(error));
+  }
 }
 
 void write_pages(const CLI::App& app, const std::filesystem::path& folder) {

@@ -18,6 +18,13 @@ TEST(OrderStatistics, QuantilesAreLinearBetweenNeighbours) {
   EXPECT_EQ(median({}), 0.0);
 }
 
+TEST(OrderStatistics, IndicesOfTheLeastAscend) {
+  EXPECT_EQ(indices_of_least({{0.5, 7}, {-1.0, 9}, {0.2, 3}}, 2), (std::vector<std::size_t>{3, 9}));
+  EXPECT_EQ(indices_of_least({{1.0, 4}, {1.0, 2}}, 1), (std::vector<std::size_t>{2}));
+  EXPECT_EQ(indices_of_least({{1.0, 4}, {0.0, 2}}, 5), (std::vector<std::size_t>{2, 4}));
+  EXPECT_TRUE(indices_of_least({}, 3).empty());
+}
+
 TEST(OrderStatistics, WhiskersEndWithinOneAndAHalfBoxes) {
   const BoxSummary box = box_summary({1.0, 2.0, 3.0, 4.0, 5.0, 20.0, 2.5, 3.5, 4.5});
   EXPECT_DOUBLE_EQ(box.median, 3.5);
